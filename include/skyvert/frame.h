@@ -1,0 +1,106 @@
+/// Stage 2, once per frame: where the observer is and what shines.
+///
+/// Frame of all directions: east, north, up (ENU) at the observer; up is away from the planet's centre.
+#ifndef SKYVERT_FRAME_H
+#define SKYVERT_FRAME_H
+
+#include "skyvert/atmosphere.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Where along a ray the samples lie.
+typedef enum skv_rule {
+    SKV_UNIFORM = 0,   ///< midpoints of N equal steps, depth by M equal steps
+    SKV_KELLER = 1,    ///< midpoints of steps ending at L(i/N)^3, depth at L(j/M)^2 [Keller08]
+    SKV_GAUSS_EXP = 2, ///< N Gauss-Legendre nodes per lit part of the ray, in an exponential map from its densest end
+} skv_rule;
+
+/// How the optical depth between two points is found.
+typedef enum skv_depth {
+    SKV_DEPTH_BY_CHAPMAN = 0, ///< closed form (erfcx form of the Chapman function), tables for non-exponential profiles
+    SKV_DEPTH_BY_INNER = 1,   ///< M samples for each of the two paths of each sample
+} skv_depth;
+
+typedef enum skv_tier { SKV_TIER_FAST = 0, SKV_TIER_STANDARD = 1, SKV_TIER_HIGH = 2 } skv_tier;
+
+/// Bits of skv_quality.terms.
+enum {
+    SKV_WITH_RAYLEIGH = 1,
+    SKV_WITH_AEROSOL = 2,
+    SKV_WITH_OZONE = 4,
+    SKV_WITH_GROUND = 8, ///< the light a ray's ground end sends back (lit by the lights' direct beams)
+    SKV_WITH_SHADOW_SPLIT = 16,
+    SKV_WITH_TANGENT_SPLIT = 32,
+    SKV_WITH_ALL = 63
+};
+
+#define SKV_SAMPLES_MAX 64
+
+/// Speed against accuracy.
+typedef struct skv_quality {
+    skv_rule rule;
+    skv_depth depth;
+    int32_t samples;       ///< N, [1, 64]; gauss-exp: [2, 16], per lit part of a ray (at most three)
+    int32_t depth_samples; ///< M, [1, 64]; inner depth only
+    uint32_t terms;        ///< SKV_WITH_* bits
+} skv_quality;
+
+/// The settings of a tier: gauss-exp, Chapman depth, all terms but the ground, N = 4, 6, 8.
+/// SKV_TIER_FAST uses N = 6 by itself where N = 4 is not good enough (observer above 20 km, light below 2 deg).
+skv_status skv_quality_tier(skv_quality *quality, skv_tier tier);
+
+/// A distant light. The sun is one, the moon may be another.
+typedef struct skv_light {
+    float direction_enu[3]; ///< toward the light; any length but 0
+    float irradiance[4];    ///< above the air, on a plane facing the light, W m^-2 nm^-1, [0, 1e6]
+} skv_light;
+
+/// Derived: one light of a frame.
+typedef struct skv_frame_light {
+    float direction_enu[3];
+    float irradiance[4];
+    float mu_s;
+} skv_frame_light;
+
+/// Derived, constant after skv_frame_begin(); points to the model, which must outlive it.
+typedef struct skv_frame {
+    uint32_t layout;
+    const skv_model *model;
+    skv_quality quality;
+    int32_t lights;
+    skv_frame_light light[SKV_LIGHTS_MAX];
+    float ground_radius_km; ///< of the sphere that is the ground
+    float ground_km;        ///< its altitude above the sea
+    float height_km;        ///< of the observer above the ground, clamped to it
+    float top_km;           ///< of the air above the ground
+    /// At the altitude of the ground, per band:
+    float rayleigh_per_km[4];
+    float aerosol_per_km[4];
+    float aerosol_extinction_per_km[4];
+    float background_per_km[4];
+    float background_extinction_per_km[4];
+    float ozone_per_km[4];
+} skv_frame;
+
+/// Prepares a frame.
+/// @param[out] frame
+/// @param[in]  model         from skv_model_build(); kept by reference.
+/// @param[in]  quality       NULL: the standard tier.
+/// @param[in]  observer_km   altitude of the observer above the sea; below the ground counts as on it; [-1e6, 1e6].
+/// @param[in]  ground_km     altitude of the ground around the observer above the sea, [-12, 12] and below the top.
+/// @param[in]  lights        [n_lights].
+/// @param[in]  n_lights      [0, SKV_LIGHTS_MAX].
+/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_RANGE; SKV_ERR_DIRECTION (of a light); SKV_ERR_UNSUPPORTED (rule, depth or term
+///         left out at compile time); SKV_ERR_LAYOUT (model not built). On error the frame is not written.
+skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_quality *quality, float observer_km,
+                           float ground_km, const skv_light *lights, int32_t n_lights);
+
+/// The sun as a light of the model's solar irradiance.
+skv_status skv_light_sun(skv_light *light, const skv_model *model, const float direction_enu[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

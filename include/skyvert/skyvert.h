@@ -1,0 +1,25 @@
+/// Skyvert: an embedded sky model for flight simulators. Umbrella header, in the order of the data flow.
+///
+///     skv_atmosphere --skv_model_build()--> skv_model      once per change
+///     skv_model, observer, lights --skv_frame_begin()--> skv_frame   once per frame
+///     skv_frame, directions --skv_radiance()--> radiance   per vertex
+///     radiance --skv_colour()--> linear RGB, luminance     per vertex
+#ifndef SKYVERT_SKYVERT_H
+#define SKYVERT_SKYVERT_H
+
+#define SKV_VERSION_MAJOR 0
+#define SKV_VERSION_MINOR 1
+#define SKV_VERSION_PATCH 0
+#define SKV_VERSION "0.1.0"
+
+#include "skyvert/config.h"
+#include "skyvert/status.h"
+#include "skyvert/atmosphere.h"
+#include "skyvert/frame.h"
+#include "skyvert/radiance.h"
+#include "skyvert/colour.h"
+#include "skyvert/sun.h"
+#include "skyvert/dome.h"
+#include "skyvert/display.h"
+
+#endif
