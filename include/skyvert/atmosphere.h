@@ -93,25 +93,24 @@ skv_status skv_atmosphere_clear(skv_atmosphere *atmosphere, int32_t bands);
 /// @return as skv_atmosphere_clear(); SKV_ERR_UNSUPPORTED iff there is no such preset.
 skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, int32_t bands);
 
-/// Rows (altitude) and columns (sun) of a tabulated column: 4*(rows*columns + tangent rows) bytes a species.
+/// Size of a tabulated column: rows over altitude, columns over the ray's elevation, and the columns of tangent rays.
 #define SKV_COLUMN_ROWS 48
 #define SKV_COLUMN_COLS 8
 #define SKV_COLUMN_TANGENTS 64
 /// Rows of a tabulated density.
 #define SKV_DENSITY_ROWS 192
 
-/// Derived: one species. Read it if you like, write it never.
+/// Derived: how one species' density and column are found (src/core/profile.h, column.h).
 typedef struct skv_species {
-    skv_profile_kind kind;
-    int32_t tabulated;        ///< its column comes from `column`, not from the Chapman form alone
-    float scale_height_km;    ///< of the Chapman form (the reference one where tabulated)
-    float inv_scale_log2e;    ///< log2(e)/scale_height_km
-    float amplitude;          ///< of the exponential part at altitude 0
-    float background;         ///< of the constant part
-    float p0, p1, p2;         ///< other parameters of the density, by kind
+    int32_t kind;          ///< skv_profile_kind; NONE where nothing of it scatters or absorbs
+    int32_t column;        ///< 0 closed form; 1 table of ratios to it; 2 table of ratios to 1/(1 + 14 mu)
+    float scale_height_km; ///< of the closed form
+    float inv_scale_log2e; ///< log2(e)/scale_height_km
+    float background;      ///< constant density beside exp(-h/H)
+    float p0, p1, p2;      ///< parameters of the other densities
 } skv_species;
 
-/// Derived: a tabulated column (see src/core/column.h for its mapping).
+/// Derived: a tabulated column (src/core/column_table.h).
 typedef struct skv_column_table {
     float column[SKV_COLUMN_ROWS * SKV_COLUMN_COLS];
     float tangent[SKV_COLUMN_TANGENTS];
@@ -128,25 +127,22 @@ typedef struct skv_model {
     float solar_irradiance[4];
     float albedo[4];
     float absorption_colour[4];
-    float rayleigh_scattering_per_km[4];
-    float aerosol_scattering_per_km[4];
+    /// Per unit of the relative densities of `species`:
+    float rayleigh_per_km[4];
+    float aerosol_per_km[4];
     float aerosol_extinction_per_km[4];
-    float ozone_absorption_per_km[4];
-    skv_species rayleigh;
-    skv_species aerosol;
-    skv_species ozone;
+    float ozone_per_km[4];
+    skv_species species[3]; ///< Rayleigh, aerosol, ozone
     int32_t aerosol_phase;
     float aerosol_g;
-    int32_t chapman_valid; ///< 0: a scale height is over 1/50 of the radius, depth is integrated instead
+    int32_t chapman_valid; ///< 0: a scale height is over 1/100 of the radius; depth is integrated instead
 #if SKV_TERM_OZONE
     skv_column_table ozone_column;
-    float ozone_density[SKV_DENSITY_ROWS];
+    float ozone_density[SKV_DENSITY_ROWS]; ///< TABLE only
 #endif
 #if SKV_PROFILE_TABULATED
-    skv_column_table rayleigh_column;
-    skv_column_table aerosol_column;
-    float rayleigh_density[SKV_DENSITY_ROWS];
-    float aerosol_density[SKV_DENSITY_ROWS];
+    skv_column_table column[2];            ///< Rayleigh, aerosol
+    float density[2][SKV_DENSITY_ROWS];    ///< TABLE only
 #endif
 } skv_model;
 

@@ -83,7 +83,7 @@
 #if defined(__arm__) && !defined(__ARM_NEON)
 #define SKV_LANES 4
 #else
-#define SKV_LANES 16
+#define SKV_LANES 8
 #endif
 #endif
 

@@ -31,9 +31,7 @@ enum {
     SKV_WITH_AEROSOL = 2,
     SKV_WITH_OZONE = 4,
     SKV_WITH_GROUND = 8, ///< the light a ray's ground end sends back (lit by the lights' direct beams)
-    SKV_WITH_SHADOW_SPLIT = 16,
-    SKV_WITH_TANGENT_SPLIT = 32,
-    SKV_WITH_ALL = 63
+    SKV_WITH_ALL = 15
 };
 
 #define SKV_SAMPLES_MAX 64
@@ -64,6 +62,18 @@ typedef struct skv_frame_light {
     float mu_s;
 } skv_frame_light;
 
+/// Derived: one species above the ground of a frame.
+typedef struct skv_frame_species {
+    int32_t kind;          ///< NONE: absent or switched off
+    float inv_scale_log2e; ///< log2(e)/H
+    float chapman_k;       ///< 1/sqrt(2 H)
+    float chapman_a;       ///< H sqrt(pi) chapman_k, times the reference density at the ground
+    float chapman_z;       ///< 3 H/8
+    float background;      ///< constant density beside exp(-h/H)
+    float top_column;      ///< 2 H exp(-top/H): twice the column above the top that the closed form counts; 0 = negligible
+    float top_k;           ///< 8 H/(pi (R + top))
+} skv_frame_species;
+
 /// Derived, constant after skv_frame_begin(); points to the model, which must outlive it.
 typedef struct skv_frame {
     uint32_t layout;
@@ -71,17 +81,19 @@ typedef struct skv_frame {
     skv_quality quality;
     int32_t lights;
     skv_frame_light light[SKV_LIGHTS_MAX];
-    float ground_radius_km; ///< of the sphere that is the ground
-    float ground_km;        ///< its altitude above the sea
-    float height_km;        ///< of the observer above the ground, clamped to it
-    float top_km;           ///< of the air above the ground
-    /// At the altitude of the ground, per band:
+    float radius_km; ///< of the sphere that is the ground
+    float ground_km; ///< its altitude above the sea
+    float height_km; ///< of the observer above the ground, clamped to it
+    float top_km;    ///< of the air above the ground
+    skv_frame_species species[3];
+    float inner_scale_km; ///< of the exponential map of the inner depth
+    float map_per_km[2];  ///< extinction that shortens the map of gauss-exp, per unit of relative density
+    /// Per unit of relative density (exponential species: of that at the ground); extinction times log2(e).
     float rayleigh_per_km[4];
     float aerosol_per_km[4];
-    float aerosol_extinction_per_km[4];
-    float background_per_km[4];
-    float background_extinction_per_km[4];
-    float ozone_per_km[4];
+    float rayleigh_log2e_per_km[4];
+    float aerosol_log2e_per_km[4];
+    float ozone_log2e_per_km[4];
 } skv_frame;
 
 /// Prepares a frame.

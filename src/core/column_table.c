@@ -1,0 +1,106 @@
+#include "core/column_table.h"
+
+#include "core/chapman.h"
+#include "core/geometry.h"
+#include "core/profile.h"
+
+#if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
+
+enum { SKV_COLUMN_STEPS = 128 };
+
+static float skv_table_density(const skv_profile *profile, float h_km) {
+    const float *h = profile->table_altitude_km, *d = profile->table_density;
+    uint32_t lo = 0, hi = profile->table_rows - 1;
+    if (!(h_km > h[lo]))
+        return d[lo];
+    if (h_km >= h[hi])
+        return d[hi];
+    while (hi - lo > 1) {
+        const uint32_t mid = (lo + hi) / 2;
+        if (h[mid] <= h_km)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return d[lo] + (d[hi] - d[lo]) * ((h_km - h[lo]) / (h[hi] - h[lo]));
+}
+
+float skv_profile_density(const skv_profile *profile, const skv_species *species, float h_km) {
+    if (profile->kind == SKV_PROFILE_TABLE)
+        return skv_table_density(profile, h_km);
+    return skv_density_formula(species, h_km);
+}
+
+float skv_profile_centroid_km(const skv_profile *profile, const skv_species *species, float top_km) {
+    float mass = 0.0f, moment = 0.0f;
+    for (int i = 0; i < 512; i++) {
+        const float x = ((float)i + 0.5f) * (1.0f / 512.0f), h = top_km * x * x;
+        const float m = skv_profile_density(profile, species, h) * x;
+        mass += m;
+        moment += m * h;
+    }
+    return skv_clampf(moment / skv_maxf(mass, 1e-30f), 0.005f * top_km, 0.5f * top_km);
+}
+
+/// Integral of the density from (h, rm >= 0) to the top: steps of growing altitude, two Gauss nodes each in distance.
+static float skv_column_integral(const skv_profile *profile, const skv_species *species, float radius, float top,
+                                 float h, float rm) {
+    const float e0 = h * (2.0f * radius + h);
+    float sum = 0.0f, s0 = 0.0f;
+    for (int i = 1; i <= SKV_COLUMN_STEPS; i++) {
+        const float x = (float)i * (1.0f / SKV_COLUMN_STEPS);
+        const float s1 = skv_to_top(radius, h + (top - h) * (0.5f * x + 0.5f * x * x), h, rm);
+        for (int g = 0; g < 2; g++) {
+            const float s = s0 + (s1 - s0) * (g == 0 ? 0.211324865f : 0.788675135f);
+            float r;
+            const float z = skv_altitude(radius, e0 + s * (2.0f * rm + s), &r);
+            sum += 0.5f * (s1 - s0) * skv_profile_density(profile, species, z);
+        }
+        s0 = s1;
+    }
+    return sum;
+}
+
+/// What a column is divided by: the closed form of the reference exponential, or t = 1/(1 + 14 mu).
+static float skv_column_base(const skv_species *species, float radius, float h, float mu, float t) {
+    if (species->column == 2)
+        return t;
+    const float scale = species->scale_height_km, k = 1.0f / skv_sqrtf(2.0f * scale);
+    const float a = scale * 1.77245385f * k;
+    return a * skv_exp2f(-h * species->inv_scale_log2e) *
+           skv_chapman(k, 0.375f * scale, radius + h, mu, skv_sqrtf(1.0f - mu * mu));
+}
+
+static float skv_row_altitude(const skv_species *species, float top, int i, int rows) {
+    const float x = (float)i / (float)(rows - 1);
+    return top * (species->column == 2 ? x : x * x);
+}
+
+void skv_column_table_build(skv_column_table *table, const skv_profile *profile, const skv_species *species,
+                            float radius_km, float top_km) {
+    for (int i = 0; i < SKV_COLUMN_ROWS; i++) {
+        const float h = skv_row_altitude(species, top_km, i, SKV_COLUMN_ROWS);
+        for (int j = 0; j < SKV_COLUMN_COLS; j++) {
+            const float t = 1.0f / 15.0f + (float)j * (14.0f / 15.0f / (float)(SKV_COLUMN_COLS - 1));
+            const float mu = skv_clampf((1.0f / t - 1.0f) * (1.0f / 14.0f), 0.0f, 1.0f);
+            table->column[i * SKV_COLUMN_COLS + j] =
+                skv_column_integral(profile, species, radius_km, top_km, h, (radius_km + h) * mu) /
+                skv_column_base(species, radius_km, h, mu, t);
+        }
+    }
+    for (int i = 0; i < SKV_COLUMN_TANGENTS; i++) {
+        const float h = skv_row_altitude(species, top_km, i, SKV_COLUMN_TANGENTS);
+        table->tangent[i] = skv_column_integral(profile, species, radius_km, top_km, h, 0.0f) /
+                            skv_column_base(species, radius_km, h, 0.0f, 1.0f);
+    }
+}
+
+void skv_density_table_build(float density[SKV_DENSITY_ROWS], const skv_profile *profile, const skv_species *species,
+                             float top_km) {
+    for (int i = 0; i < SKV_DENSITY_ROWS; i++) {
+        const float x = (float)i / (float)(SKV_DENSITY_ROWS - 1);
+        density[i] = skv_profile_density(profile, species, top_km * x * x);
+    }
+}
+
+#endif

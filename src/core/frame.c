@@ -1,0 +1,176 @@
+#include "skyvert/frame.h"
+
+#include <string.h>
+
+#include "core/lanes.h"
+
+skv_status skv_quality_tier(skv_quality *quality, skv_tier tier) {
+    static const int8_t samples[3] = {4, 6, 8};
+    if (!quality)
+        return SKV_ERR_NULL;
+    if ((int)tier < 0 || (int)tier > 2)
+        return SKV_ERR_UNSUPPORTED;
+    const skv_quality q = {SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, samples[tier], 16,
+                           SKV_WITH_ALL & ~(uint32_t)SKV_WITH_GROUND};
+    *quality = q;
+    return SKV_OK;
+}
+
+static skv_status skv_check_quality(const skv_quality *q) {
+    const int built[3] = {SKV_RULE_UNIFORM, SKV_RULE_KELLER, SKV_RULE_GAUSS_EXP};
+    if ((int)q->rule < 0 || (int)q->rule > 2 || !built[q->rule])
+        return SKV_ERR_UNSUPPORTED;
+    if (q->depth == SKV_DEPTH_BY_CHAPMAN ? !SKV_DEPTH_CHAPMAN : q->depth != SKV_DEPTH_BY_INNER || !SKV_DEPTH_INNER)
+        return SKV_ERR_UNSUPPORTED;
+    const int gauss = q->rule == SKV_GAUSS_EXP, most = gauss ? 16 : SKV_SAMPLES_MAX, least = gauss ? 2 : 1;
+    if (q->samples < least || q->samples > most)
+        return SKV_ERR_RANGE;
+    if (q->depth == SKV_DEPTH_BY_INNER && (q->depth_samples < least || q->depth_samples > most))
+        return SKV_ERR_RANGE;
+    if ((q->terms & ~(uint32_t)SKV_WITH_ALL) != 0)
+        return SKV_ERR_RANGE;
+    if ((q->terms & SKV_WITH_GROUND) != 0 && !SKV_TERM_GROUND)
+        return SKV_ERR_UNSUPPORTED;
+    return SKV_OK;
+}
+
+/// Unit vector of any finite non-zero one.
+static int skv_unit(const float v[3], float out[3]) {
+    const float m = skv_maxf(skv_maxf(skv_fabsf(v[0]), skv_fabsf(v[1])), skv_fabsf(v[2]));
+    if (!skv_isfinite(v[0]) || !skv_isfinite(v[1]) || !skv_isfinite(v[2]) || !(m >= 1.17549435e-38f))
+        return 0;
+    const float x = v[0] / m, y = v[1] / m, z = v[2] / m, norm = 1.0f / skv_sqrtf(x * x + y * y + z * z);
+    out[0] = x * norm;
+    out[1] = y * norm;
+    out[2] = z * norm;
+    return 1;
+}
+
+static skv_status skv_frame_lights(skv_frame *f, const skv_light *lights, int32_t n) {
+    f->lights = n;
+    for (int32_t i = 0; i < n; i++) {
+        if (!skv_unit(lights[i].direction_enu, f->light[i].direction_enu))
+            return SKV_ERR_DIRECTION;
+        f->light[i].mu_s = f->light[i].direction_enu[2];
+        for (int b = 0; b < skv_bands(f->model); b++) {
+            if (!(lights[i].irradiance[b] >= 0.0f && lights[i].irradiance[b] <= 1e6f))
+                return SKV_ERR_RANGE;
+            f->light[i].irradiance[b] = lights[i].irradiance[b];
+        }
+    }
+    return SKV_OK;
+}
+
+/// Species above the ground of this frame. Exponentials are taken relative to the ground, so no exponential of a negative
+/// altitude is formed in the air of a ground below the sea.
+static void skv_frame_species_init(skv_frame *f, int s) {
+    const skv_species *sp = &f->model->species[s];
+    skv_frame_species *out = &f->species[s];
+    const float scale = sp->scale_height_km, at_ground = skv_minf(skv_exp2f(-f->ground_km * sp->inv_scale_log2e), 1e6f);
+    out->kind = (f->quality.terms & (1u << s)) != 0 ? sp->kind : SKV_PROFILE_NONE;
+    out->inv_scale_log2e = sp->inv_scale_log2e;
+    out->chapman_k = 1.0f / skv_sqrtf(2.0f * scale);
+    out->chapman_a = scale * 1.77245385f * out->chapman_k * (sp->column != 0 ? at_ground : 1.0f);
+    out->chapman_z = 0.375f * scale;
+    out->background = sp->background / skv_maxf(at_ground, 1e-30f);
+    const float beyond = 2.0f * scale * skv_exp2f(-f->top_km * sp->inv_scale_log2e);
+    // Negligible where even forty times it, along the horizon, is under 1e-6 of optical depth.
+    float most = 0.0f;
+    for (int b = 0; b < skv_bands(f->model); b++)
+        most = skv_maxf(most, s == SKV_RAYLEIGH ? f->rayleigh_log2e_per_km[b] : f->aerosol_log2e_per_km[b]);
+    out->top_column = sp->column == 0 && 40.0f * beyond * most > 1e-6f ? beyond : 0.0f;
+    out->top_k = 2.54647909f * scale / (f->radius_km + f->top_km);
+}
+
+static void skv_frame_coefficients(skv_frame *f) {
+    const skv_model *m = f->model;
+    const float log2e = 1.44269504f;
+    float at_ground[2];
+    for (int s = 0; s < 2; s++)
+        at_ground[s] = m->species[s].column == 0 ? skv_minf(skv_exp2f(-f->ground_km * m->species[s].inv_scale_log2e), 1e6f) : 1.0f;
+    const int bands = skv_bands(m);
+    for (int b = 0; b < bands; b++) {
+        f->rayleigh_per_km[b] = m->rayleigh_per_km[b] * at_ground[0];
+        f->aerosol_per_km[b] = m->aerosol_per_km[b] * at_ground[1];
+        f->rayleigh_log2e_per_km[b] = f->rayleigh_per_km[b] * log2e;
+        f->aerosol_log2e_per_km[b] = m->aerosol_extinction_per_km[b] * at_ground[1] * log2e;
+        f->ozone_log2e_per_km[b] = m->ozone_per_km[b] * log2e;
+        f->map_per_km[0] += f->rayleigh_per_km[b] / (float)bands;
+        f->map_per_km[1] += m->aerosol_extinction_per_km[b] * at_ground[1] / (float)bands;
+    }
+    float lo = 1e30f, hi = 0.0f;
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        skv_frame_species_init(f, s);
+        if (s == SKV_OZONE || f->species[s].kind == SKV_PROFILE_NONE)
+            continue;
+        lo = skv_minf(lo, m->species[s].scale_height_km);
+        hi = skv_maxf(hi, m->species[s].scale_height_km);
+    }
+    f->inner_scale_km = hi > 0.0f ? skv_sqrtf(lo * hi) : 8.0f;
+}
+
+/// What the request has to become where the fast tier or the closed form does not hold.
+static skv_status skv_frame_adjust(skv_frame *f) {
+    skv_quality *q = &f->quality;
+    float lowest = 1.0f;
+    for (int32_t i = 0; i < f->lights; i++)
+        lowest = skv_minf(lowest, f->light[i].mu_s);
+    if (q->rule == SKV_GAUSS_EXP && q->samples == 4 && (f->height_km > 20.0f || lowest < 0.0349f))
+        q->samples = 6;
+    if (q->depth == SKV_DEPTH_BY_CHAPMAN && !f->model->chapman_valid) {
+        q->depth = SKV_DEPTH_BY_INNER;
+        q->depth_samples = 16;
+        return SKV_DEPTH_INNER ? SKV_OK : SKV_ERR_UNSUPPORTED;
+    }
+    return SKV_OK;
+}
+
+skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_quality *quality, float observer_km,
+                           float ground_km, const skv_light *lights, int32_t n_lights) {
+    if (!frame || !model || (!lights && n_lights > 0))
+        return SKV_ERR_NULL;
+    if (model->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    skv_frame f;
+    memset(&f, 0, sizeof f);
+    f.model = model;
+    if (quality)
+        f.quality = *quality;
+    else
+        (void)skv_quality_tier(&f.quality, SKV_TIER_STANDARD);
+    skv_status status = skv_check_quality(&f.quality);
+    if (status != SKV_OK)
+        return status;
+    if (!(observer_km >= -1e6f && observer_km <= 1e6f) || !(ground_km >= -12.0f && ground_km <= 12.0f) ||
+        !(ground_km < model->top_km) || !(ground_km > -0.5f * model->radius_km) || n_lights < 0 ||
+        n_lights > SKV_LIGHTS_MAX)
+        return SKV_ERR_RANGE;
+    f.radius_km = model->radius_km + ground_km;
+    f.ground_km = ground_km;
+    f.height_km = skv_maxf(observer_km - ground_km, 0.0f);
+    f.top_km = model->top_km - ground_km;
+    status = skv_frame_lights(&f, lights, n_lights);
+    if (status == SKV_OK)
+        status = skv_frame_adjust(&f);
+    if (status != SKV_OK)
+        return status;
+    skv_frame_coefficients(&f);
+    f.layout = SKV_LAYOUT;
+    *frame = f;
+    return SKV_OK;
+}
+
+skv_status skv_light_sun(skv_light *light, const skv_model *model, const float direction_enu[3]) {
+    float unit[3];
+    if (!light || !model || !direction_enu)
+        return SKV_ERR_NULL;
+    if (model->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    if (!skv_unit(direction_enu, unit))
+        return SKV_ERR_DIRECTION;
+    memset(light, 0, sizeof *light);
+    memcpy(light->direction_enu, direction_enu, 3 * sizeof(float));
+    for (int b = 0; b < skv_bands(model); b++)
+        light->irradiance[b] = model->solar_irradiance[b];
+    return SKV_OK;
+}

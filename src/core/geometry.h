@@ -1,0 +1,24 @@
+/// Distances and altitudes along a straight ray over a sphere, in forms that do not cancel.
+///
+/// A ray starts at altitude h above a ground of radius R, r = R + h, with cos zenith angle mu. Instead of mu the forms
+/// carry rm = r mu, which is linear along the ray: rm(s) = rm + s; likewise r mu_s (s) = r mu_s + s nu.
+#ifndef SKV_CORE_GEOMETRY_H
+#define SKV_CORE_GEOMETRY_H
+
+#include "core/elementary.h"
+
+/// E = r(s)^2 - R^2 = h(2R+h) + s(2 rm + s); altitude = E/(R + sqrt(R^2 + E)).
+static inline float skv_altitude(float radius, float e, float *r) {
+    const float q = skv_sqrtf(radius * radius + e);
+    *r = q;
+    return e / (radius + q);
+}
+
+/// Distance to the sphere of altitude top from below: root of s^2 + 2 rm s = c, c = (top-h)(2R+top+h).
+static inline float skv_to_top(float radius, float top, float h, float rm) {
+    const float c = skv_maxf(0.0f, top - h) * (2.0f * radius + top + h);
+    const float q = skv_sqrtf(rm * rm + c);
+    return rm > 0.0f ? c / (rm + q) : q - rm;
+}
+
+#endif

@@ -1,0 +1,208 @@
+#include "skyvert/atmosphere.h"
+
+#include <string.h>
+
+#include "core/column_table.h"
+#include "core/lanes.h"
+
+/// Comparisons are written so that NaN fails them.
+static int skv_within(float x, float lo, float hi) {
+    return x >= lo && x <= hi;
+}
+
+static int skv_all_within(const float *x, int n, float lo, float hi) {
+    int ok = 1;
+    for (int i = 0; i < n; i++)
+        ok &= skv_within(x[i], lo, hi);
+    return ok;
+}
+
+static skv_status skv_check_table(const skv_profile *p) {
+    if (!p->table_altitude_km || !p->table_density)
+        return SKV_ERR_NULL;
+    if (p->table_rows < 2 || p->table_rows > SKV_TABLE_ROWS_MAX)
+        return SKV_ERR_RANGE;
+    for (uint32_t i = 0; i < p->table_rows; i++) {
+        if (!skv_within(p->table_altitude_km[i], -1e4f, 1e4f) || !skv_within(p->table_density[i], 0.0f, 1e6f))
+            return SKV_ERR_RANGE;
+        if (i > 0 && !(p->table_altitude_km[i] > p->table_altitude_km[i - 1]))
+            return SKV_ERR_RANGE;
+    }
+    return SKV_OK;
+}
+
+static skv_status skv_check_profile(const skv_profile *p, int species) {
+    const int scale = skv_within(p->scale_height_km, 0.001f, 1000.0f);
+    switch (p->kind) {
+    case SKV_PROFILE_NONE:
+        return SKV_OK;
+    case SKV_PROFILE_EXPONENTIAL:
+        return scale ? SKV_OK : SKV_ERR_RANGE;
+    case SKV_PROFILE_EXP_BACKGROUND:
+        return scale && species == SKV_AEROSOL && skv_within(p->background, 0.0f, 1.0f) ? SKV_OK : SKV_ERR_RANGE;
+    case SKV_PROFILE_US76:
+        return skv_within(p->us76_a, 1e-6f, 10.0f) && skv_within(p->us76_b, 0.5f, 3.0f) ? SKV_OK : SKV_ERR_RANGE;
+    case SKV_PROFILE_TENT:
+        return skv_within(p->peak_km, 0.0f, 1000.0f) && skv_within(p->half_width_km, 0.01f, 1000.0f) ? SKV_OK
+                                                                                                     : SKV_ERR_RANGE;
+    case SKV_PROFILE_LOGNORMAL:
+        return skv_within(p->lognormal_mu, -3.0f, 7.0f) && skv_within(p->lognormal_k, 0.05f, 200.0f) ? SKV_OK
+                                                                                                     : SKV_ERR_RANGE;
+    case SKV_PROFILE_TABLE:
+        return skv_check_table(p);
+    default:
+        return SKV_ERR_RANGE;
+    }
+}
+
+static skv_status skv_check_aerosol(const skv_atmosphere *a) {
+    const int n = a->bands;
+    if (a->aerosol.kind == SKV_PROFILE_NONE)
+        return SKV_OK;
+    if (!skv_all_within(a->aerosol_scattering_per_km, n, 0.0f, 1e4f) || !skv_within(a->aerosol_g, -0.9999f, 0.9999f) ||
+        !skv_within(a->turbidity, 0.0f, 1e4f))
+        return SKV_ERR_RANGE;
+    for (int b = 0; b < n; b++)
+        if (!skv_within(a->aerosol_extinction_per_km[b], a->aerosol_scattering_per_km[b], 1e4f))
+            return SKV_ERR_RANGE;
+    if (a->aerosol_phase == SKV_PHASE_HG)
+        return SKV_PHASE_HENYEY_GREENSTEIN ? SKV_OK : SKV_ERR_UNSUPPORTED;
+    if (a->aerosol_phase == SKV_PHASE_CS)
+        return SKV_PHASE_CORNETTE_SHANKS ? SKV_OK : SKV_ERR_UNSUPPORTED;
+    return SKV_ERR_RANGE;
+}
+
+static skv_status skv_check(const skv_atmosphere *a) {
+    const int n = a->bands;
+    if (n != 3 && n != 4)
+        return SKV_ERR_RANGE;
+    if (SKV_BANDS != 0 && n != SKV_BANDS)
+        return SKV_ERR_UNSUPPORTED;
+    if (!skv_within(a->radius_km, 1.0f, 1e5f) || !skv_within(a->top_km, 0.1f, 1000.0f) || !(a->top_km <= a->radius_km))
+        return SKV_ERR_RANGE;
+    int ok = skv_all_within(a->wavelength_nm, n, 200.0f, 3000.0f) && skv_all_within(a->solar_irradiance, n, 0.0f, 1e6f) &&
+             skv_all_within(a->albedo, n, 0.0f, 1.0f) && skv_all_within(a->absorption_colour, n, 1e-6f, 1.0f);
+    for (int b = 1; b < n; b++)
+        ok &= a->wavelength_nm[b] > a->wavelength_nm[b - 1];
+    if (a->rayleigh.kind != SKV_PROFILE_NONE)
+        ok &= skv_all_within(a->rayleigh_scattering_per_km, n, 0.0f, 1e4f);
+    if (a->ozone.kind != SKV_PROFILE_NONE)
+        ok &= skv_all_within(a->ozone_absorption_per_km, n, 0.0f, 1e4f);
+    if (!ok)
+        return SKV_ERR_RANGE;
+    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        const skv_status status = skv_check_profile(profile[s], s);
+        if (status != SKV_OK)
+            return status;
+        const int closed = profile[s]->kind <= SKV_PROFILE_EXP_BACKGROUND;
+        if (!SKV_PROFILE_TABULATED && s != SKV_OZONE && !closed)
+            return SKV_ERR_UNSUPPORTED;
+    }
+    return skv_check_aerosol(a);
+}
+
+/// Parameters of a density, and which form its column takes.
+static void skv_species_init(skv_species *sp, const skv_profile *p, int species, float top_km) {
+    const float log2e = 1.44269504f;
+    sp->kind = p->kind;
+    sp->column = species == SKV_OZONE ? 2 : p->kind <= SKV_PROFILE_EXP_BACKGROUND ? 0 : 1;
+    sp->scale_height_km = p->kind <= SKV_PROFILE_EXP_BACKGROUND ? p->scale_height_km : 1.0f;
+    sp->inv_scale_log2e = log2e / sp->scale_height_km;
+    if (p->kind == SKV_PROFILE_EXP_BACKGROUND)
+        sp->background = p->background;
+    if (p->kind == SKV_PROFILE_US76) {
+        sp->p0 = -p->us76_a * log2e;
+        sp->p1 = p->us76_b;
+    } else if (p->kind == SKV_PROFILE_TENT) {
+        sp->p0 = p->peak_km;
+        sp->p1 = 1.0f / p->half_width_km;
+    } else if (p->kind == SKV_PROFILE_LOGNORMAL) {
+        // At the peak ln h = mu - 1/(2k) the exponent is 1/(4k) - mu.
+        sp->p0 = p->lognormal_mu;
+        sp->p1 = p->lognormal_k;
+        sp->p2 = (p->lognormal_mu - 0.25f / p->lognormal_k) * log2e;
+    }
+#if SKV_PROFILE_TABULATED
+    if (sp->column == 1) {
+        sp->scale_height_km = skv_profile_centroid_km(p, sp, top_km);
+        sp->inv_scale_log2e = log2e / sp->scale_height_km;
+    }
+#endif
+    (void)top_km;
+}
+
+/// Coefficients per unit of the species' relative density; the species is dropped where all are 0.
+static void skv_coefficients(skv_model *m, const skv_atmosphere *a) {
+    float most[3] = {0.0f, 0.0f, 0.0f};
+    const float norm = a->aerosol.kind == SKV_PROFILE_EXP_BACKGROUND ? 1.0f / (1.0f + a->aerosol.background) : 1.0f;
+    for (int b = 0; b < a->bands; b++) {
+        if (a->rayleigh.kind != SKV_PROFILE_NONE)
+            m->rayleigh_per_km[b] = a->rayleigh_scattering_per_km[b];
+        if (a->aerosol.kind != SKV_PROFILE_NONE) {
+            m->aerosol_per_km[b] = a->aerosol_scattering_per_km[b] * a->turbidity * norm;
+            m->aerosol_extinction_per_km[b] = a->aerosol_extinction_per_km[b] * a->turbidity * norm;
+        }
+        if (a->ozone.kind != SKV_PROFILE_NONE)
+            m->ozone_per_km[b] = a->ozone_absorption_per_km[b];
+        most[SKV_RAYLEIGH] = skv_maxf(most[SKV_RAYLEIGH], m->rayleigh_per_km[b]);
+        most[SKV_AEROSOL] = skv_maxf(most[SKV_AEROSOL], m->aerosol_extinction_per_km[b]);
+        most[SKV_OZONE] = skv_maxf(most[SKV_OZONE], m->ozone_per_km[b]);
+    }
+    for (int s = 0; s < SKV_SPECIES; s++)
+        if (!(most[s] > 0.0f))
+            m->species[s].kind = SKV_PROFILE_NONE;
+}
+
+static void skv_tables(skv_model *m, const skv_atmosphere *a) {
+    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+#if SKV_TERM_OZONE
+    if (m->species[SKV_OZONE].kind != SKV_PROFILE_NONE) {
+        const skv_species *sp = &m->species[SKV_OZONE];
+        skv_column_table_build(&m->ozone_column, profile[SKV_OZONE], sp, m->radius_km, m->top_km);
+        skv_density_table_build(m->ozone_density, profile[SKV_OZONE], sp, m->top_km);
+    }
+#endif
+#if SKV_PROFILE_TABULATED
+    for (int s = 0; s < 2; s++) {
+        const skv_species *sp = &m->species[s];
+        if (sp->kind == SKV_PROFILE_NONE || sp->column == 0)
+            continue;
+        skv_column_table_build(&m->column[s], profile[s], sp, m->radius_km, m->top_km);
+        skv_density_table_build(m->density[s], profile[s], sp, m->top_km);
+    }
+#endif
+    (void)profile;
+    (void)m;
+}
+
+skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
+    if (!model || !a)
+        return SKV_ERR_NULL;
+    const skv_status status = skv_check(a);
+    if (status != SKV_OK)
+        return status;
+    memset(model, 0, sizeof *model);
+    model->bands = a->bands;
+    model->radius_km = a->radius_km;
+    model->top_km = a->top_km;
+    for (int b = 0; b < a->bands; b++) {
+        model->wavelength_nm[b] = a->wavelength_nm[b];
+        model->solar_irradiance[b] = a->solar_irradiance[b];
+        model->albedo[b] = a->albedo[b];
+        model->absorption_colour[b] = a->absorption_colour[b];
+    }
+    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+    for (int s = 0; s < SKV_SPECIES; s++)
+        skv_species_init(&model->species[s], profile[s], s, a->top_km);
+    model->aerosol_phase = (int32_t)a->aerosol_phase;
+    model->aerosol_g = a->aerosol.kind == SKV_PROFILE_NONE ? 0.0f : a->aerosol_g;
+    skv_coefficients(model, a);
+    model->chapman_valid = 1;
+    for (int s = 0; s < 2; s++)
+        if (model->species[s].kind != SKV_PROFILE_NONE && model->species[s].scale_height_km * 100.0f > a->radius_km)
+            model->chapman_valid = 0;
+    skv_tables(model, a);
+    model->layout = SKV_LAYOUT;
+    return SKV_OK;
+}

@@ -1,0 +1,170 @@
+#include "skyvert/radiance.h"
+
+#include "core/ends.h"
+#include "core/gauss.h"
+#include "core/midpoint.h"
+#include "core/shadow.h"
+
+#if SKV_RULE_GAUSS_EXP
+/// One leg of each ray as the light sees it.
+SKV_INLINE void skv_legs_fill(const skv_frame *frame, int light, const skv_block *block, int part,
+                              const skv_block_light *toward, const skv_columns *k, skv_legs *leg) {
+    const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
+    SKV_EACH_LANE(l) {
+        const float dir = block->leg[part].dir.v[l];
+        leg->h_km.v[l] = block->leg[part].h_km.v[l];
+        leg->rm.v[l] = block->leg[part].rm.v[l];
+        leg->rms.v[l] = rms0 + block->leg[part].from_km.v[l] * toward->nu.v[l];
+        leg->nu.v[l] = dir * toward->nu.v[l];
+        leg->a.v[l] = block->leg[part].a.v[l];
+        leg->b.v[l] = block->leg[part].b.v[l];
+        leg->p_km.v[l] = block->p_km.v[l];
+        leg->sigma.v[l] = -dir;
+    }
+    for (int s = 0; s < 2; s++)
+        if (skv_present(frame, s))
+            leg->phase[s] = toward->phase[s];
+    for (int s = 0; s < SKV_SPECIES; s++)
+        if (skv_present(frame, s))
+            leg->k.of[s] = k->of[s];
+}
+
+SKV_INLINE void skv_legs_copy(const skv_legs *from, int l, skv_legs *to, int q) {
+    to->h_km.v[q] = from->h_km.v[l];
+    to->rm.v[q] = from->rm.v[l];
+    to->rms.v[q] = from->rms.v[l];
+    to->nu.v[q] = from->nu.v[l];
+    to->a.v[q] = from->a.v[l];
+    to->b.v[q] = from->b.v[l];
+    to->p_km.v[q] = from->p_km.v[l];
+    to->sigma.v[q] = from->sigma.v[l];
+    for (int s = 0; s < 2; s++)
+        to->phase[s].v[q] = from->phase[s].v[l];
+    for (int s = 0; s < SKV_SPECIES; s++)
+        to->k.of[s].v[q] = from->k.of[s].v[l];
+    to->out[q] = from->out[l];
+}
+
+/// A queue keeps every lane of a block busy with a lit leg, whatever the rays.
+typedef struct skv_queue {
+    skv_legs leg;
+    int count;
+} skv_queue;
+
+static void skv_queue_flush(const skv_frame *frame, int light, skv_queue *queue) {
+    if (queue->count == 0)
+        return;
+    for (int q = queue->count; q < SKV_LANES; q++)
+        skv_legs_copy(&queue->leg, 0, &queue->leg, q);
+    skv_gauss_legs(frame, &queue->leg, queue->count, frame->light[light].irradiance);
+    queue->count = 0;
+}
+
+static void skv_queue_push(const skv_frame *frame, int light, const skv_legs *leg, int count, skv_queue *queue) {
+    for (int l = 0; l < count; l++) {
+        if (!(leg->b.v[l] > leg->a.v[l]))
+            continue;
+        skv_legs_copy(leg, l, &queue->leg, queue->count);
+        if (++queue->count == SKV_LANES)
+            skv_queue_flush(frame, light, queue);
+    }
+}
+
+SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
+    int full = count == SKV_LANES;
+    for (int l = 0; l < count; l++)
+        full &= leg->b.v[l] > leg->a.v[l];
+    return full;
+}
+
+static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+    const size_t bands = (size_t)skv_bands(frame->model);
+    skv_queue queue;
+    int bad = 0;
+    queue.count = 0;
+    for (size_t first = 0; first < n; first += SKV_LANES) {
+        skv_block block;
+        skv_block_light toward;
+        skv_columns k[2];
+        skv_block_load(frame, n, first, rays, &block);
+        skv_block_columns(frame, &block, k);
+        skv_block_toward(frame, light, &block, &toward);
+        bad |= block.bad;
+        for (int part = 0; part < block.parts; part++) {
+            skv_legs leg;
+            skv_lanes dark_from, dark_to;
+            skv_legs_fill(frame, light, &block, part, &toward, &k[part], &leg);
+            for (int l = 0; l < block.count; l++)
+                leg.out[l] = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, first + (size_t)l);
+            if (skv_leg_shadow(frame, &block, part, &toward, &leg.rms, &leg.nu, &dark_from, &dark_to)) {
+                leg.b = dark_from;
+                skv_queue_push(frame, light, &leg, block.count, &queue);
+                leg.a = dark_to;
+                leg.b = block.leg[part].b;
+                skv_queue_push(frame, light, &leg, block.count, &queue);
+            } else if (queue.count == 0 && skv_legs_full(&leg, block.count)) {
+                skv_gauss_legs(frame, &leg, SKV_LANES, frame->light[light].irradiance);
+            } else {
+                skv_queue_push(frame, light, &leg, block.count, &queue);
+            }
+        }
+    }
+    skv_queue_flush(frame, light, &queue);
+    return bad;
+}
+#endif
+
+static skv_status skv_check_strides(const skv_rays *rays, const skv_sky *sky, size_t bands) {
+    const size_t stride[4] = {rays->direction_stride, rays->length_stride, sky->radiance_stride,
+                              sky->transmittance_stride};
+    const size_t fields[4] = {3, 1, bands, bands};
+    for (int i = 0; i < 4; i++)
+        if (stride[i] % sizeof(float) != 0 || (stride[i] != 0 && stride[i] < fields[i] * sizeof(float)))
+            return SKV_ERR_SIZE;
+    return SKV_OK;
+}
+
+/// Sums of finite parts can overflow only where the caller asked for absurd light: hold them finite.
+static void skv_finish(const skv_frame *frame, size_t n, const skv_sky *sky) {
+    const size_t bands = (size_t)skv_bands(frame->model);
+    const float *colour = frame->model->absorption_colour;
+    for (size_t i = 0; i < n; i++) {
+        float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, i);
+        for (size_t b = 0; b < bands; b++)
+            out[b] = skv_clampf(out[b] * colour[b], 0.0f, 3.0e38f);
+    }
+}
+
+skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
+    if (!frame || !rays || !sky || !rays->direction_enu || !sky->radiance)
+        return SKV_ERR_NULL;
+    if (frame->layout != SKV_LAYOUT || !frame->model || frame->model->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    const size_t bands = (size_t)skv_bands(frame->model);
+    const skv_status strides = skv_check_strides(rays, sky, bands);
+    if (strides != SKV_OK)
+        return strides;
+#if !SKV_OUT_TRANSMITTANCE
+    if (sky->transmittance)
+        return SKV_ERR_UNSUPPORTED;
+#endif
+    for (size_t i = 0; i < n; i++) {
+        float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, i);
+        for (size_t b = 0; b < bands; b++)
+            out[b] = 0.0f;
+    }
+    int bad = 0;
+    for (int light = 0; light < frame->lights; light++) {
+#if SKV_RULE_GAUSS_EXP
+        if (frame->quality.rule == SKV_GAUSS_EXP)
+            bad |= skv_rule_gauss(frame, light, n, rays, sky);
+#endif
+#if SKV_RULE_KELLER || SKV_RULE_UNIFORM
+        if (frame->quality.rule != SKV_GAUSS_EXP)
+            bad |= skv_rule_midpoint(frame, light, n, rays, sky);
+#endif
+    }
+    bad |= skv_ends(frame, n, rays, sky);
+    skv_finish(frame, n, sky);
+    return bad ? SKV_ERR_DIRECTION : SKV_OK;
+}

@@ -1,0 +1,212 @@
+/// From the caller's rays to blocks of lanes, and from those to legs: pieces on which the altitude only grows with the
+/// distance from their origin.
+///
+///     up       one leg from the observer                       dir = +1
+///     tangent  one from the tangent point to the observer,     dir = -1
+///              one from the tangent point onwards              dir = +1 (part 1)
+///     ground   one from the ground to the observer             dir = -1
+#ifndef SKV_CORE_RAYS_H
+#define SKV_CORE_RAYS_H
+
+#include "skyvert/radiance.h"
+
+#include "core/column.h"
+#include "core/phase.h"
+
+typedef struct skv_block {
+    int count;               ///< lanes in use; the others repeat an empty ray
+    int parts;               ///< 2 iff some lane has a tangent point
+    int bad;                 ///< some direction or length was refused
+    skv_lanes valid;         ///< 0: this one, else 1
+    skv_lanes view[3];       ///< unit
+    skv_lanes start_km;      ///< from the observer to where the air begins
+    skv_lanes p_km;          ///< r sin(zenith angle)
+    skv_lanes rm;            ///< r mu at the start
+    skv_lanes h_km;          ///< altitude of the start
+    skv_lanes length_km;     ///< from the start to the end
+    skv_lanes meets_ground;  ///< 1: the end is on the ground
+    struct {
+        skv_lanes h_km, rm;  ///< at the origin; rm >= 0
+        skv_lanes from_km;   ///< from the observer to the origin
+        skv_lanes dir;
+        skv_lanes a, b;      ///< range, km from the origin
+    } leg[2];
+} skv_block;
+
+static inline const float *skv_at(const float *base, size_t stride, size_t fields, size_t i) {
+    return (const float *)(const void *)((const char *)base + i * (stride ? stride : fields * sizeof(float)));
+}
+
+static inline float *skv_at_mutable(float *base, size_t stride, size_t fields, size_t i) {
+    return (float *)(void *)((char *)base + i * (stride ? stride : fields * sizeof(float)));
+}
+
+/// Unit view directions; a refused one becomes an empty ray to the zenith.
+SKV_INLINE void skv_block_directions(size_t n, size_t first, const skv_rays *rays, skv_block *b) {
+    const size_t left = n - first;
+    b->count = left < SKV_LANES ? (int)left : SKV_LANES;
+    b->bad = 0;
+    for (int l = 0; l < SKV_LANES; l++) {
+        const size_t i = first + (size_t)(l < b->count ? l : 0);
+        const float *v = skv_at(rays->direction_enu, rays->direction_stride, 3, i);
+        b->view[0].v[l] = v[0];
+        b->view[1].v[l] = v[1];
+        b->view[2].v[l] = v[2];
+        b->length_km.v[l] = rays->length_km ? *skv_at(rays->length_km, rays->length_stride, 1, i) : 1e9f;
+    }
+    SKV_EACH_LANE(l) {
+        const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l];
+        // The largest component first: squares of any float neither overflow nor vanish. NaN fails the comparison.
+        const float m = skv_maxf(skv_maxf(skv_fabsf(x), skv_fabsf(y)), skv_fabsf(z));
+        const float valid = m >= 1.17549435e-38f && m <= 3.40282347e38f && x - x == 0.0f && y - y == 0.0f &&
+                                    z - z == 0.0f && b->length_km.v[l] >= 0.0f
+                                ? 1.0f
+                                : 0.0f;
+        const float inv = 1.0f / (valid > 0.0f ? m : 1.0f);
+        const float sx = valid > 0.0f ? x * inv : 0.0f, sy = valid > 0.0f ? y * inv : 0.0f;
+        const float sz = valid > 0.0f ? z * inv : 1.0f;
+        const float norm = 1.0f / skv_sqrtf(sx * sx + sy * sy + sz * sz);
+        b->view[0].v[l] = sx * norm;
+        b->view[1].v[l] = sy * norm;
+        b->view[2].v[l] = sz * norm;
+        b->length_km.v[l] = valid > 0.0f ? skv_minf(b->length_km.v[l], 1e9f) : -1.0f;
+        b->valid.v[l] = valid;
+    }
+    for (int l = 0; l < b->count; l++)
+        b->bad |= b->valid.v[l] < 1.0f;
+}
+
+/// Where each ray enters the air: at the observer, or from above the top.
+SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
+    const float radius = frame->radius_km, h = frame->height_km, top = frame->top_km, r = radius + h;
+    SKV_EACH_LANE(l) {
+        const float x = b->view[0].v[l], y = b->view[1].v[l];
+        b->p_km.v[l] = r * skv_sqrtf(x * x + y * y);
+        b->rm.v[l] = r * b->view[2].v[l];
+        b->h_km.v[l] = h;
+        b->start_km.v[l] = 0.0f;
+    }
+    if (h <= top)
+        return;
+    const float c = (h - top) * (2.0f * radius + h + top), rt = radius + top;
+    SKV_EACH_LANE(l) {
+        const float root = skv_sqrtf(skv_maxf((rt - b->p_km.v[l]) * (rt + b->p_km.v[l]), 0.0f));
+        const int enters = b->rm.v[l] < 0.0f && b->p_km.v[l] < rt;
+        const float entry = c / (skv_fabsf(b->rm.v[l]) + root);
+        b->h_km.v[l] = top;
+        b->rm.v[l] = enters ? -root : 0.0f;
+        b->start_km.v[l] = enters ? entry : 0.0f;
+        b->length_km.v[l] = enters ? b->length_km.v[l] - entry : -1.0f;
+    }
+}
+
+/// The legs of each ray.
+SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
+    const float radius = frame->radius_km, top = frame->top_km;
+    float tangents = 0.0f;
+    SKV_EACH_LANE(l) {
+        const float h = b->h_km.v[l], rm = b->rm.v[l];
+        const float c = h * (2.0f * radius + h), e = c - rm * rm;
+        const int down = rm < 0.0f, hit = down && e < 0.0f;
+        const float root = skv_sqrtf(skv_maxf(-e, 0.0f));
+        const float to_ground = c / skv_maxf(root - rm, 1e-30f);
+        const float from = down ? (hit ? to_ground : -rm) : 0.0f;
+        float r;
+        const float ht = skv_minf(skv_altitude(radius, skv_maxf(e, 0.0f), &r), h);
+        const float length = skv_maxf(b->length_km.v[l], 0.0f);
+        const float h0 = down ? (hit ? 0.0f : ht) : h, rm0 = down ? (hit ? root : 0.0f) : rm;
+        b->leg[0].h_km.v[l] = h0;
+        b->leg[0].rm.v[l] = rm0;
+        b->leg[0].from_km.v[l] = b->start_km.v[l] + from;
+        b->leg[0].dir.v[l] = down ? -1.0f : 1.0f;
+        b->leg[0].a.v[l] = down ? skv_maxf(from - length, 0.0f) : 0.0f;
+        b->leg[0].b.v[l] = down ? from : skv_minf(skv_to_top(radius, top, h, rm), length);
+        b->meets_ground.v[l] = hit && length >= from ? 1.0f : 0.0f;
+        b->leg[1].h_km.v[l] = ht;
+        b->leg[1].rm.v[l] = 0.0f;
+        b->leg[1].from_km.v[l] = b->start_km.v[l] + from;
+        b->leg[1].dir.v[l] = 1.0f;
+        b->leg[1].a.v[l] = 0.0f;
+        b->leg[1].b.v[l] = down && !hit ? skv_minf(skv_to_top(radius, top, ht, 0.0f), length - from) : 0.0f;
+        // Refused, or past the air: nothing at all.
+        b->leg[0].b.v[l] = b->length_km.v[l] > 0.0f ? b->leg[0].b.v[l] : b->leg[0].a.v[l];
+        tangents = skv_maxf(tangents, b->leg[1].b.v[l]);
+    }
+    b->parts = tangents > 0.0f ? 2 : 1;
+}
+
+SKV_INLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays, skv_block *b) {
+    skv_block_directions(n, first, rays, b);
+    skv_block_start(frame, b);
+    skv_block_legs(frame, b);
+}
+
+/// Constants K of the view columns K + sigma col(P): up col(O), towards the observer -col(O), past the tangent point
+/// 2 col(T) - col(O), each column taken upward from the start of the air.
+SKV_INLINE void skv_block_columns(const skv_frame *frame, const skv_block *b, skv_columns k[2]) {
+    skv_points o;
+    skv_lanes mu, sin_chi;
+    SKV_EACH_LANE(l) {
+        o.h_km.v[l] = b->h_km.v[l];
+        o.r_km.v[l] = frame->radius_km + b->h_km.v[l];
+        mu.v[l] = skv_minf(skv_fabsf(b->rm.v[l]) / o.r_km.v[l], 1.0f);
+        sin_chi.v[l] = skv_minf(b->p_km.v[l] / o.r_km.v[l], 1.0f);
+    }
+    skv_points_densities(frame, &o);
+    skv_columns_up(frame, &o, &mu, &sin_chi, &k[0]);
+    if (b->parts == 2) {
+        skv_points t;
+        SKV_EACH_LANE(l) {
+            t.h_km.v[l] = b->leg[1].h_km.v[l];
+            t.r_km.v[l] = frame->radius_km + b->leg[1].h_km.v[l];
+        }
+        skv_points_densities(frame, &t);
+        skv_columns_tangent(frame, &t, &k[1]);
+    }
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        if (!skv_present(frame, s))
+            continue;
+        if (b->parts == 2)
+            SKV_EACH_LANE(l) k[1].of[s].v[l] -= k[0].of[s].v[l];
+        SKV_EACH_LANE(l) k[0].of[s].v[l] *= b->leg[0].dir.v[l];
+    }
+}
+
+/// What a light means to the rays of a block.
+typedef struct skv_block_light {
+    skv_lanes nu;       ///< cos(view, light)
+    skv_lanes cross2;   ///< 1 - nu^2, from the difference of the directions
+    skv_lanes climb;    ///< (view - nu light) . up
+    skv_lanes phase[2]; ///< Rayleigh, aerosol
+} skv_block_light;
+
+SKV_INLINE void skv_block_toward(const skv_frame *frame, int light, const skv_block *b, skv_block_light *out) {
+    const float *s = frame->light[light].direction_enu;
+    const float g = frame->model->aerosol_g, sz = s[2];
+    skv_lanes d;
+    SKV_EACH_LANE(l) {
+        const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l];
+        const float dx = x - s[0], dy = y - s[1], dz = z - sz, ex = x + s[0], ey = y + s[1], ez = z + sz;
+        const float near = 0.5f * (dx * dx + dy * dy + dz * dz), far = 0.5f * (ex * ex + ey * ey + ez * ez);
+        const float nu = near < far ? 1.0f - near : far - 1.0f;
+        out->nu.v[l] = skv_clampf(nu, -1.0f, 1.0f);
+        out->cross2.v[l] = skv_maxf(near * far, 1e-10f);
+        out->climb.v[l] = near < far ? dz + sz * near : ez - sz * far;
+        out->phase[SKV_RAYLEIGH].v[l] = skv_phase_rayleigh(out->nu.v[l]);
+        d.v[l] = skv_phase_distance(g, g < 0.0f ? far : near);
+    }
+#if SKV_TERM_AEROSOL
+    if (!skv_present(frame, SKV_AEROSOL))
+        return;
+#if SKV_PHASE_CORNETTE_SHANKS
+    if (frame->model->aerosol_phase == SKV_PHASE_CS)
+        SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_cornette_shanks(g, d.v[l], out->nu.v[l]);
+#endif
+#if SKV_PHASE_HENYEY_GREENSTEIN
+    if (frame->model->aerosol_phase == SKV_PHASE_HG)
+        SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_henyey_greenstein(g, d.v[l]);
+#endif
+#endif
+}
+
+#endif

@@ -1,0 +1,41 @@
+/// The planet's shadow on a leg: one stretch at most, found exactly.
+///
+/// With A = 1 - nu^2, B = (position - its part along the light) . direction, C = r^2 - R^2 - (r mu_s)^2 the squared
+/// distance to the shadow's axis minus R^2 is A s^2 + 2 B s + C; dark is where it is negative on the far side of the
+/// planet, r mu_s + s nu < 0.
+#ifndef SKV_CORE_SHADOW_H
+#define SKV_CORE_SHADOW_H
+
+#include "core/rays.h"
+
+/// @param[in]  rms, nu  of the leg: r mu_s at its origin, cos(its direction, light).
+/// @param[out] from, to the dark stretch within [a, b]; from >= to where there is none.
+/// @return whether any lane has one.
+SKV_INLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part, const skv_block_light *light,
+                              const skv_lanes *rms, const skv_lanes *nu, skv_lanes *from, skv_lanes *to) {
+    const float radius = frame->radius_km, r0 = radius + frame->height_km;
+    float lowest = 0.0f;
+    SKV_EACH_LANE(l)
+        lowest = skv_minf(lowest, skv_minf(rms->v[l], rms->v[l] + block->leg[part].b.v[l] * nu->v[l]));
+    if (!(lowest < 0.0f))
+        return 0;
+    float any = 0.0f;
+    SKV_EACH_LANE(l) {
+        const float h = block->leg[part].h_km.v[l], begin = block->leg[part].a.v[l], end = block->leg[part].b.v[l];
+        const float a = light->cross2.v[l];
+        const float b = block->leg[part].dir.v[l] * (r0 * light->climb.v[l] + block->leg[part].from_km.v[l] * a);
+        const float c = h * (2.0f * radius + h) - rms->v[l] * rms->v[l];
+        const float disc = b * b - a * c;
+        const float q = skv_sqrtf(skv_maxf(disc, 0.0f));
+        const float t = b < 0.0f ? q - b : -(b + q);
+        const float t1 = t / a, t2 = c / (skv_fabsf(t) > 1e-30f ? t : 1e-30f);
+        const float lo = skv_maxf(skv_minf(t1, t2), begin), hi = skv_minf(skv_maxf(t1, t2), end);
+        const int dark = disc > 0.0f && lo < hi && rms->v[l] + 0.5f * (lo + hi) * nu->v[l] < 0.0f;
+        from->v[l] = dark ? lo : end;
+        to->v[l] = dark ? hi : end;
+        any = skv_maxf(any, dark ? 1.0f : 0.0f);
+    }
+    return any > 0.0f;
+}
+
+#endif
