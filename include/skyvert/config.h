@@ -87,6 +87,15 @@
 #endif
 #endif
 
+/// Copies of the inner kernel for the most common selections: faster, some kilobytes each. 0 = one kernel for all.
+#ifndef SKV_SPECIALISE
+#if defined(__arm__) && !defined(__ARM_NEON)
+#define SKV_SPECIALISE 0
+#else
+#define SKV_SPECIALISE 1
+#endif
+#endif
+
 #if SKV_BANDS != 0 && SKV_BANDS != 3 && SKV_BANDS != 4
 #error "SKV_BANDS: 0, 3 or 4"
 #endif

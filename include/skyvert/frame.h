@@ -58,7 +58,7 @@ typedef struct skv_light {
 /// Derived: one light of a frame.
 typedef struct skv_frame_light {
     float direction_enu[3];
-    float irradiance[4];
+    float irradiance[4]; ///< times the model's absorption colour
     float mu_s;
 } skv_frame_light;
 
@@ -79,6 +79,7 @@ typedef struct skv_frame {
     uint32_t layout;
     const skv_model *model;
     skv_quality quality;
+    uint32_t has; ///< what the kernels need to know of all this (src/core/lanes.h)
     int32_t lights;
     skv_frame_light light[SKV_LIGHTS_MAX];
     float radius_km; ///< of the sphere that is the ground

@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/// Largest radiance that is written; sums beyond it stay there.
+#define SKV_RADIANCE_MAX 3.0e38f
+
 /// Where the rays are read from: fields of the caller's vertices, any stride.
 typedef struct skv_rays {
     const float *direction_enu; ///< [n][3], from the observer; any length but 0 (a vertex position on a dome will do)

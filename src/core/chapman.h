@@ -9,11 +9,10 @@
 #include "core/elementary.h"
 
 /// col/(rho a) with a = H sqrt(pi) k, k = 1/sqrt(2H), z = 3H/8.
-static inline float skv_chapman(float k, float z, float r_km, float mu, float sin_chi) {
-    const float root = skv_sqrtf(r_km);
-    const float inv = 1.0f / (sin_chi + SKV_ERFCX_C * k * root * mu);
+SKV_INLINE float skv_chapman(float k, float z, float root_r, float inv_r, float mu, float sin_chi) {
+    const float inv = 1.0f / (sin_chi + SKV_ERFCX_C * k * root_r * mu);
     const float s2 = sin_chi * sin_chi, s4 = s2 * s2;
-    return root * inv * skv_erfcx_poly(sin_chi * inv) * (1.0f + z * (s4 * s4) / r_km);
+    return root_r * inv * skv_erfcx_poly(sin_chi * inv) * (1.0f + z * (s4 * s4) * inv_r);
 }
 
 #endif

@@ -68,7 +68,7 @@ static float skv_column_base(const skv_species *species, float radius, float h, 
     const float scale = species->scale_height_km, k = 1.0f / skv_sqrtf(2.0f * scale);
     const float a = scale * 1.77245385f * k;
     return a * skv_exp2f(-h * species->inv_scale_log2e) *
-           skv_chapman(k, 0.375f * scale, radius + h, mu, skv_sqrtf(1.0f - mu * mu));
+           skv_chapman(k, 0.375f * scale, skv_sqrtf(radius + h), 1.0f / (radius + h), mu, skv_sqrtf(1.0f - mu * mu));
 }
 
 static float skv_row_altitude(const skv_species *species, float top, int i, int rows) {

@@ -26,7 +26,14 @@
 #endif
 #endif
 
-static inline uint32_t skv_bits(float x) {
+/// Functions of one line in the inner loops: a call would keep the loop from being vectorised.
+#if defined(__GNUC__)
+#define SKV_INLINE static inline __attribute__((always_inline))
+#else
+#define SKV_INLINE static inline
+#endif
+
+SKV_INLINE uint32_t skv_bits(float x) {
 #if defined(__GNUC__)
     uint32_t u;
     __builtin_memcpy(&u, &x, sizeof u);
@@ -40,7 +47,7 @@ static inline uint32_t skv_bits(float x) {
 #endif
 }
 
-static inline float skv_from_bits(uint32_t u) {
+SKV_INLINE float skv_from_bits(uint32_t u) {
 #if defined(__GNUC__)
     float x;
     __builtin_memcpy(&x, &u, sizeof x);
@@ -56,35 +63,34 @@ static inline float skv_from_bits(uint32_t u) {
 }
 
 /// Integer test: holds whatever the compiler assumes about NaN.
-static inline int skv_isfinite(float x) {
+SKV_INLINE int skv_isfinite(float x) {
     return (skv_bits(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-static inline float skv_fabsf(float x) {
+SKV_INLINE float skv_fabsf(float x) {
     return skv_from_bits(skv_bits(x) & 0x7fffffffu);
 }
 
 /// |x| with the sign of s.
-static inline float skv_copysignf(float x, float s) {
+SKV_INLINE float skv_copysignf(float x, float s) {
     return skv_from_bits((skv_bits(x) & 0x7fffffffu) | (skv_bits(s) & 0x80000000u));
 }
 
 /// The smaller; b where either is NaN.
-static inline float skv_minf(float a, float b) {
+SKV_INLINE float skv_minf(float a, float b) {
     return a < b ? a : b;
 }
 
 /// The larger; b where either is NaN.
-static inline float skv_maxf(float a, float b) {
+SKV_INLINE float skv_maxf(float a, float b) {
     return a > b ? a : b;
 }
 
 /// x within [lo, hi]; NaN gives lo.
-static inline float skv_clampf(float x, float lo, float hi) {
+SKV_INLINE float skv_clampf(float x, float lo, float hi) {
     return skv_minf(skv_maxf(x, lo), hi);
 }
 
-#if SKV_SOFT_SQRT
 /// Square root of a normal positive float in integers: 24 binary digits and one to round by, then round to nearest.
 /// A tie cannot occur: the root of a 25-bit number never ends in digit 25.
 static inline float skv_sqrt_soft(float x) {
@@ -104,16 +110,25 @@ static inline float skv_sqrt_soft(float x) {
     root = (root + 1) >> 1; // the 25th digit rounds
     return skv_from_bits((uint32_t)(((e - (e & 1)) / 2 + 126) << 23) + root);
 }
-#endif
 
-/// Square root, correctly rounded. 0 for x < FLT_MIN (subnormals too, so flush-to-zero changes nothing), negative and
-/// NaN; +infinity stays. Error: rel 1e-7 on [0x1p-126, 0x1.fffffep127], worst at 0x1p0
-static inline float skv_sqrtf(float x) {
+/// Square root, correctly rounded. 0 for x < FLT_MIN (subnormals too: flush-to-zero changes nothing), negative, NaN.
+/// +infinity stays.
+/// Error: rel 6.0e-8 on [0x1p-126, 0x1.fffffep127], worst at 0x1.000002p+0
+SKV_INLINE float skv_sqrtf(float x) {
     const float v = x >= FLT_MIN ? x : 0.0f;
 #if SKV_SOFT_SQRT
     return v > FLT_MAX || v == 0.0f ? v : skv_sqrt_soft(v);
 #else
     return __builtin_sqrtf(v);
+#endif
+}
+
+/// skv_sqrtf() where the caller knows that x is 0 or normal and positive.
+SKV_INLINE float skv_root(float x) {
+#if SKV_SOFT_SQRT
+    return skv_sqrtf(x);
+#else
+    return __builtin_sqrtf(x);
 #endif
 }
 

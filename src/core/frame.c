@@ -55,7 +55,7 @@ static skv_status skv_frame_lights(skv_frame *f, const skv_light *lights, int32_
         for (int b = 0; b < skv_bands(f->model); b++) {
             if (!(lights[i].irradiance[b] >= 0.0f && lights[i].irradiance[b] <= 1e6f))
                 return SKV_ERR_RANGE;
-            f->light[i].irradiance[b] = lights[i].irradiance[b];
+            f->light[i].irradiance[b] = lights[i].irradiance[b] * f->model->absorption_colour[b];
         }
     }
     return SKV_OK;
@@ -109,6 +109,20 @@ static void skv_frame_coefficients(skv_frame *f) {
     f->inner_scale_km = hi > 0.0f ? skv_sqrtf(lo * hi) : 8.0f;
 }
 
+static uint32_t skv_frame_bits(const skv_frame *f) {
+    uint32_t has = skv_bands(f->model) == 4 ? SKV_HAS_FOUR : 0;
+    for (int s = 0; s < SKV_SPECIES; s++)
+        if (f->species[s].kind != SKV_PROFILE_NONE) {
+            has |= 1u << s;
+            has |= s != SKV_OZONE && f->model->species[s].column != 0 ? SKV_HAS_RATIO : 0;
+            has |= f->species[s].background > 0.0f ? SKV_HAS_BACKGROUND : 0;
+            has |= s != SKV_OZONE && f->species[s].top_column > 0.0f ? SKV_HAS_CUT : 0;
+        }
+    if (f->quality.depth == SKV_DEPTH_BY_INNER)
+        has = (has | SKV_HAS_INNER) & ~(uint32_t)SKV_HAS_CUT;
+    return has & SKV_HAS_BUILT;
+}
+
 /// What the request has to become where the fast tier or the closed form does not hold.
 static skv_status skv_frame_adjust(skv_frame *f) {
     skv_quality *q = &f->quality;
@@ -155,6 +169,7 @@ skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_q
     if (status != SKV_OK)
         return status;
     skv_frame_coefficients(&f);
+    f.has = skv_frame_bits(&f);
     f.layout = SKV_LAYOUT;
     *frame = f;
     return SKV_OK;

@@ -19,10 +19,9 @@ typedef struct skv_legs {
     float *out[SKV_LANES];       ///< where the radiance is added, [bands]
 } skv_legs;
 
-/// Scale of the map: altitude scale Hs(mu_s) over the slope of the ray, shortened where the air is dense.
-SKV_INLINE float skv_map_length(float hs, float mu, float r, float extinction_per_km, float weight) {
-    const float inv = (0.5f * mu + skv_sqrtf(0.25f * mu * mu + 0.5f * hs / r)) / hs;
-    return 1.0f / (inv + weight * extinction_per_km);
+/// 1/l: the slope of the ray over the altitude scale Hs, more where the air is dense.
+SKV_INLINE float skv_map_inverse(float hs, float mu, float inv_r, float extinction_per_km) {
+    return (0.5f * mu + skv_root(0.25f * mu * mu + 0.5f * hs * inv_r)) / hs + 0.15f * extinction_per_km;
 }
 
 /// Hs against the sine of the light's elevation: one smooth function, so that nothing pops.
@@ -32,85 +31,117 @@ SKV_INLINE float skv_map_scale(float mu_s) {
 }
 
 /// Moves the origin of each leg to the start of its lit range.
-SKV_INLINE void skv_legs_start(const skv_frame *frame, const skv_legs *leg, skv_points *o, skv_lanes *e0, skv_lanes *rm,
-                               skv_lanes *rms) {
+SKV_INLINE void skv_legs_start(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_points *o, skv_lanes *e0,
+                               skv_lanes *rm, skv_lanes *rms) {
     const float radius = frame->radius_km;
     SKV_EACH_LANE(l) {
         const float h = leg->h_km.v[l], a = leg->a.v[l];
-        const float e = h * (2.0f * radius + h) + a * (2.0f * leg->rm.v[l] + a);
-        o->h_km.v[l] = skv_clampf(skv_altitude(radius, e, &o->r_km.v[l]), 0.0f, frame->top_km);
-        e0->v[l] = e;
+        e0->v[l] = h * (2.0f * radius + h) + a * (2.0f * leg->rm.v[l] + a);
         rm->v[l] = leg->rm.v[l] + a;
         rms->v[l] = leg->rms.v[l] + a * leg->nu.v[l];
     }
-    skv_points_densities(frame, o);
+    skv_points_at(frame, has, e0, o);
+}
+
+/// The map of each leg: l, k, and exp(k).
+SKV_INLINE void skv_legs_map(const skv_frame *frame, unsigned has, const skv_legs *leg, const skv_points *o,
+                             const skv_lanes *rm, const skv_lanes *rms, skv_lanes *l_km, skv_lanes *k,
+                             skv_lanes *whole) {
+    const float dense_r = frame->map_per_km[SKV_RAYLEIGH], dense_a = frame->map_per_km[SKV_AEROSOL];
+    SKV_EACH_LANE(l) {
+        float extinction = 0.0f;
+        if (SKV_PRESENT(has, SKV_RAYLEIGH))
+            extinction += o->rho[SKV_RAYLEIGH].v[l] * dense_r;
+        if (SKV_PRESENT(has, SKV_AEROSOL))
+            extinction += o->rho[SKV_AEROSOL].v[l] * dense_a;
+        const float inv_r = o->inv_r.v[l];
+        const float inv = skv_map_inverse(skv_map_scale(rms->v[l] * inv_r), rm->v[l] * inv_r, inv_r, extinction);
+        const float x = skv_maxf(leg->b.v[l] - leg->a.v[l], 0.0f) * inv;
+        l_km->v[l] = 1.0f / inv;
+        k->v[l] = skv_log1pf(x);
+        whole->v[l] = 1.0f + x;
+    }
 }
 
 /// Single scattering along `count` legs, added to where they say.
-static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
-    const skv_model *model = frame->model;
-    const int n = frame->quality.samples, bands = skv_bands(model);
+SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+                                 const float irradiance[4]) {
+    const int n = frame->quality.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
-    const float radius = frame->radius_km;
     skv_points p;
-    skv_lanes e0, rm, rms, l_km, k, whole, e_far, mu, sin_view, ds, radiance[SKV_BANDS_MAX];
-
-    skv_legs_start(frame, leg, &p, &e0, &rm, &rms);
-    float lowest = 0.0f;
-    SKV_EACH_LANE(l) {
-        const float r = p.r_km.v[l];
-        float extinction = 0.0f;
-        if (skv_present(frame, SKV_RAYLEIGH))
-            extinction += p.rho[SKV_RAYLEIGH].v[l] * frame->map_per_km[SKV_RAYLEIGH];
-        if (skv_present(frame, SKV_AEROSOL))
-            extinction += p.rho[SKV_AEROSOL].v[l] * frame->map_per_km[SKV_AEROSOL];
-        const float length = skv_maxf(leg->b.v[l] - leg->a.v[l], 0.0f);
-        l_km.v[l] = skv_map_length(skv_map_scale(rms.v[l] / r), rm.v[l] / r, r, extinction, 0.15f);
-        whole.v[l] = 1.0f + length / l_km.v[l];
-        k.v[l] = skv_log1pf(length / l_km.v[l]);
-    }
-    SKV_EACH_LANE(l) {
-        const float far = rms.v[l] + (leg->b.v[l] - leg->a.v[l]) * leg->nu.v[l];
-        lowest = skv_minf(lowest, skv_minf(rms.v[l], far));
-    }
-    const int down = lowest < 0.0f;
+    skv_lanes e0, rm, rms, l_km, k, whole, grown, radiance[SKV_BANDS_MAX];
+    skv_legs_start(frame, has, leg, &p, &e0, &rm, &rms);
+    skv_legs_map(frame, has, leg, &p, &rm, &rms, &l_km, &k, &whole);
     for (int b = 0; b < bands; b++)
         SKV_EACH_LANE(l) radiance[b].v[l] = 0.0f;
 
     // Nodes come in pairs u, 1-u: exp(k(1-u)) = exp(k)/exp(k u) saves every second exponential.
     for (int i = 0; i < n; i++) {
         const int far = i & 1, at = far ? n - 1 - i / 2 : i / 2;
+        const float u = 1.44269504f * node[at], w = weight[at];
+        skv_lanes e, ds, mu, sin_view, rms_p;
+        skv_columns view, light;
         if (far)
-            SKV_EACH_LANE(l) e_far.v[l] = whole.v[l] / e_far.v[l];
+            SKV_EACH_LANE(l) grown.v[l] = whole.v[l] / grown.v[l];
         else
-            SKV_EACH_LANE(l) e_far.v[l] = skv_exp2f_d5(k.v[l] * (1.44269504f * node[at]));
-        skv_lanes rms_p;
+            SKV_EACH_LANE(l) grown.v[l] = skv_exp2f_d5(k.v[l] * u);
         SKV_EACH_LANE(l) {
-            const float e = e_far.v[l];
-            const float s = l_km.v[l] * (e - 1.0f);
-            ds.v[l] = weight[at] * k.v[l] * l_km.v[l] * e;
-            const float ep = e0.v[l] + s * (2.0f * rm.v[l] + s);
-            float r;
-            p.h_km.v[l] = skv_clampf(skv_altitude(radius, skv_maxf(ep, 0.0f), &r), 0.0f, frame->top_km);
-            p.r_km.v[l] = r;
-            mu.v[l] = skv_clampf((rm.v[l] + s) / r, 0.0f, 1.0f);
-            sin_view.v[l] = skv_minf(leg->p_km.v[l] / r, 1.0f);
+            const float g = grown.v[l], s = l_km.v[l] * (g - 1.0f);
+            ds.v[l] = w * k.v[l] * l_km.v[l] * g;
+            e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            mu.v[l] = rm.v[l] + s;
             rms_p.v[l] = rms.v[l] + s * leg->nu.v[l];
         }
-        skv_columns view, light;
-        skv_points_densities(frame, &p);
-        skv_columns_up(frame, &p, &mu, &sin_view, &view);
-        skv_columns_light(frame, &p, &rms_p, down, &light);
+        skv_points_at(frame, has, &e, &p);
+        SKV_EACH_LANE(l) {
+            mu.v[l] = skv_clampf(mu.v[l] * p.inv_r.v[l], 0.0f, 1.0f);
+            sin_view.v[l] = skv_minf(leg->p_km.v[l] * p.inv_r.v[l], 1.0f);
+        }
+        skv_columns_up(frame, has, &p, &mu, &sin_view, &view);
+        skv_columns_light(frame, has, &p, &rms_p, &light);
         for (int s = 0; s < SKV_SPECIES; s++)
-            if (skv_present(frame, s))
+            if (SKV_PRESENT(has, s))
                 SKV_EACH_LANE(l)
-                    light.of[s].v[l] = skv_maxf(
-                        light.of[s].v[l] + skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f), 0.0f);
-        skv_scatter(frame, &p, leg->phase, &ds, &light, radiance);
+                    light.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
+        skv_scatter(frame, has, &p, leg->phase, &ds, &light, radiance);
     }
     for (int l = 0; l < count; l++)
         for (int b = 0; b < bands; b++)
-            leg->out[l][b] += radiance[b].v[l] * irradiance[b];
+            leg->out[l][b] = skv_minf(leg->out[l][b] + radiance[b].v[l] * irradiance[b], SKV_RADIANCE_MAX);
+}
+
+/// Whether any sample of any leg may see the light below its horizontal: r mu_s is linear along a leg.
+SKV_INLINE unsigned skv_legs_down(const skv_legs *leg) {
+    float lowest = 0.0f;
+    for (int l = 0; l < SKV_LANES; l++)
+        lowest = skv_minf(lowest, skv_minf(leg->rms.v[l] + leg->a.v[l] * leg->nu.v[l],
+                                           leg->rms.v[l] + leg->b.v[l] * leg->nu.v[l]));
+    return lowest < 0.0f ? (unsigned)SKV_HAS_DOWN : 0u;
+}
+
+/// The kernel, specialised for what most frames are.
+static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
+    const unsigned has = frame->has | skv_legs_down(leg);
+#if SKV_SPECIALISE
+    enum { TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT, ALL = TWO | SKV_HAS_OZONE | SKV_HAS_FOUR };
+#if SKV_BANDS != 4
+    if (has == (unsigned)TWO) {
+        skv_gauss_kernel(frame, TWO, leg, count, irradiance);
+        return;
+    }
+#endif
+#if SKV_TERM_OZONE && SKV_BANDS != 3
+    if (has == (unsigned)ALL) {
+        skv_gauss_kernel(frame, ALL, leg, count, irradiance);
+        return;
+    }
+    if (has == (unsigned)(ALL | SKV_HAS_DOWN)) {
+        skv_gauss_kernel(frame, ALL | SKV_HAS_DOWN, leg, count, irradiance);
+        return;
+    }
+#endif
+#endif
+    skv_gauss_kernel(frame, has & SKV_HAS_BUILT, leg, count, irradiance);
 }
 
 #endif

@@ -8,16 +8,16 @@
 #include "core/elementary.h"
 
 /// E = r(s)^2 - R^2 = h(2R+h) + s(2 rm + s); altitude = E/(R + sqrt(R^2 + E)).
-static inline float skv_altitude(float radius, float e, float *r) {
-    const float q = skv_sqrtf(radius * radius + e);
+SKV_INLINE float skv_altitude(float radius, float e, float *r) {
+    const float q = skv_root(radius * radius + e);
     *r = q;
     return e / (radius + q);
 }
 
 /// Distance to the sphere of altitude top from below: root of s^2 + 2 rm s = c, c = (top-h)(2R+top+h).
-static inline float skv_to_top(float radius, float top, float h, float rm) {
+SKV_INLINE float skv_to_top(float radius, float top, float h, float rm) {
     const float c = skv_maxf(0.0f, top - h) * (2.0f * radius + top + h);
-    const float q = skv_sqrtf(rm * rm + c);
+    const float q = skv_root(rm * rm + c);
     return rm > 0.0f ? c / (rm + q) : q - rm;
 }
 

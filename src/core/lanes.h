@@ -6,19 +6,24 @@
 
 #include "core/elementary.h"
 
+/// A loop over the lanes. Unrolled first it would not be vectorised any more.
+#if defined(__clang__)
+#define SKV_EACH_LANE(l) _Pragma("clang loop unroll(disable)") for (int l = 0; l < SKV_LANES; l++)
+#elif defined(__GNUC__)
+#define SKV_EACH_LANE(l) _Pragma("GCC unroll 1") for (int l = 0; l < SKV_LANES; l++)
+#else
 #define SKV_EACH_LANE(l) for (int l = 0; l < SKV_LANES; l++)
+#endif
 
 /// One value per lane, aligned for the widest vectors in use.
 #if defined(__GNUC__)
 typedef struct __attribute__((aligned(SKV_LANES >= 8 ? 32 : 4 * SKV_LANES < 16 ? 4 * SKV_LANES : 16))) skv_lanes {
     float v[SKV_LANES];
 } skv_lanes;
-#define SKV_INLINE static inline __attribute__((always_inline))
 #else
 typedef struct skv_lanes {
     float v[SKV_LANES];
 } skv_lanes;
-#define SKV_INLINE static inline
 #endif
 
 enum { SKV_RAYLEIGH = 0, SKV_AEROSOL = 1, SKV_OZONE = 2, SKV_SPECIES = 3 };
@@ -28,15 +33,32 @@ typedef struct skv_columns {
     skv_lanes of[SKV_SPECIES];
 } skv_columns;
 
-/// Whether a species is there: compiled in, in the model, switched on.
-SKV_INLINE int skv_present(const skv_frame *frame, int species) {
-    const int built = species == SKV_RAYLEIGH  ? SKV_TERM_RAYLEIGH
-                      : species == SKV_AEROSOL ? SKV_TERM_AEROSOL
-                                               : SKV_TERM_OZONE;
-    return built && frame->species[species].kind != SKV_PROFILE_NONE;
-}
+/// What a frame needs, as bits: known to the compiler where a kernel is specialised, read from the frame elsewhere.
+enum {
+    SKV_HAS_RAYLEIGH = 1 << SKV_RAYLEIGH,
+    SKV_HAS_AEROSOL = 1 << SKV_AEROSOL,
+    SKV_HAS_OZONE = 1 << SKV_OZONE,
+    SKV_HAS_RATIO = 8,       ///< a column of Rayleigh or aerosol is tabulated
+    SKV_HAS_BACKGROUND = 16, ///< an exponential has a background
+    SKV_HAS_INNER = 32,      ///< depth by inner integration
+    SKV_HAS_CUT = 64,        ///< the closed form reaches beyond the top
+    SKV_HAS_DOWN = 128,      ///< a light may lie below the horizontal of a sample
+    SKV_HAS_FOUR = 256,      ///< four bands
+    /// What is compiled in at all.
+    SKV_HAS_BUILT = (SKV_TERM_RAYLEIGH ? 1 : 0) | (SKV_TERM_AEROSOL ? 2 : 0) | (SKV_TERM_OZONE ? 4 : 0) |
+                    (SKV_PROFILE_TABULATED ? 8 : 0) | 16 | (SKV_DEPTH_INNER ? 32 : 0) | (SKV_DEPTH_CHAPMAN ? 64 : 0) |
+                    128 | (SKV_BANDS == 3 ? 0 : 256)
+};
 
-/// Number of bands; a constant where config.h fixes it.
+#define SKV_PRESENT(has, species) (((has) >> (species) & 1u) != 0)
+
+/// Number of bands; a constant where config.h or the kernel fixes it.
+#if SKV_BANDS
+#define SKV_BANDS_OF(has) ((void)(has), SKV_BANDS)
+#else
+#define SKV_BANDS_OF(has) (((has) & SKV_HAS_FOUR) != 0 ? 4 : 3)
+#endif
+
 SKV_INLINE int skv_bands(const skv_model *model) {
 #if SKV_BANDS
     (void)model;

@@ -26,6 +26,20 @@ static inline float skv_density_formula(const skv_species *sp, float h_km) {
     }
 }
 
+SKV_INLINE const float *skv_density_table(const skv_model *model, int species) {
+#if SKV_TERM_OZONE
+    if (species == SKV_OZONE)
+        return model->ozone_density;
+#endif
+#if SKV_PROFILE_TABULATED
+    return model->density[species];
+#else
+    (void)model;
+    (void)species;
+    return NULL;
+#endif
+}
+
 /// Position in a table of n rows over [0, top]: whole part and fraction. Rows are evenly spaced in sqrt(h/top).
 static inline int skv_sqrt_row(float h_km, float top_km, int rows, float *fraction) {
     const float x = skv_sqrtf(skv_clampf(h_km / top_km, 0.0f, 1.0f)) * (float)(rows - 1);

@@ -1,5 +1,7 @@
 #include "skyvert/radiance.h"
 
+#include <string.h>
+
 #include "core/ends.h"
 #include "core/gauss.h"
 #include "core/midpoint.h"
@@ -7,7 +9,7 @@
 
 #if SKV_RULE_GAUSS_EXP
 /// One leg of each ray as the light sees it.
-SKV_INLINE void skv_legs_fill(const skv_frame *frame, int light, const skv_block *block, int part,
+SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, const skv_block *block, int part,
                               const skv_block_light *toward, const skv_columns *k, skv_legs *leg) {
     const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
     SKV_EACH_LANE(l) {
@@ -22,10 +24,10 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, int light, const skv_block
         leg->sigma.v[l] = -dir;
     }
     for (int s = 0; s < 2; s++)
-        if (skv_present(frame, s))
+        if (SKV_PRESENT(has, s))
             leg->phase[s] = toward->phase[s];
     for (int s = 0; s < SKV_SPECIES; s++)
-        if (skv_present(frame, s))
+        if (SKV_PRESENT(has, s))
             leg->k.of[s] = k->of[s];
 }
 
@@ -78,7 +80,8 @@ SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
 }
 
 static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
-    const size_t bands = (size_t)skv_bands(frame->model);
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const size_t bands = (size_t)SKV_BANDS_OF(has);
     skv_queue queue;
     int bad = 0;
     queue.count = 0;
@@ -87,13 +90,13 @@ static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv
         skv_block_light toward;
         skv_columns k[2];
         skv_block_load(frame, n, first, rays, &block);
-        skv_block_columns(frame, &block, k);
-        skv_block_toward(frame, light, &block, &toward);
+        skv_block_columns(frame, has, &block, k);
+        skv_block_toward(frame, has, light, &block, &toward);
         bad |= block.bad;
         for (int part = 0; part < block.parts; part++) {
             skv_legs leg;
             skv_lanes dark_from, dark_to;
-            skv_legs_fill(frame, light, &block, part, &toward, &k[part], &leg);
+            skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], &leg);
             for (int l = 0; l < block.count; l++)
                 leg.out[l] = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, first + (size_t)l);
             if (skv_leg_shadow(frame, &block, part, &toward, &leg.rms, &leg.nu, &dark_from, &dark_to)) {
@@ -124,14 +127,15 @@ static skv_status skv_check_strides(const skv_rays *rays, const skv_sky *sky, si
     return SKV_OK;
 }
 
-/// Sums of finite parts can overflow only where the caller asked for absurd light: hold them finite.
-static void skv_finish(const skv_frame *frame, size_t n, const skv_sky *sky) {
-    const size_t bands = (size_t)skv_bands(frame->model);
-    const float *colour = frame->model->absorption_colour;
+static void skv_clear(size_t n, size_t bands, const skv_sky *sky) {
+    if (sky->radiance_stride == 0 || sky->radiance_stride == bands * sizeof(float)) {
+        memset(sky->radiance, 0, n * bands * sizeof(float));
+        return;
+    }
     for (size_t i = 0; i < n; i++) {
         float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, i);
         for (size_t b = 0; b < bands; b++)
-            out[b] = skv_clampf(out[b] * colour[b], 0.0f, 3.0e38f);
+            out[b] = 0.0f;
     }
 }
 
@@ -148,11 +152,7 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
     if (sky->transmittance)
         return SKV_ERR_UNSUPPORTED;
 #endif
-    for (size_t i = 0; i < n; i++) {
-        float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, i);
-        for (size_t b = 0; b < bands; b++)
-            out[b] = 0.0f;
-    }
+    skv_clear(n, bands, sky);
     int bad = 0;
     for (int light = 0; light < frame->lights; light++) {
 #if SKV_RULE_GAUSS_EXP
@@ -165,6 +165,5 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
 #endif
     }
     bad |= skv_ends(frame, n, rays, sky);
-    skv_finish(frame, n, sky);
     return bad ? SKV_ERR_DIRECTION : SKV_OK;
 }

@@ -65,7 +65,7 @@ SKV_INLINE void skv_block_directions(size_t n, size_t first, const skv_rays *ray
         const float inv = 1.0f / (valid > 0.0f ? m : 1.0f);
         const float sx = valid > 0.0f ? x * inv : 0.0f, sy = valid > 0.0f ? y * inv : 0.0f;
         const float sz = valid > 0.0f ? z * inv : 1.0f;
-        const float norm = 1.0f / skv_sqrtf(sx * sx + sy * sy + sz * sz);
+        const float norm = 1.0f / skv_root(sx * sx + sy * sy + sz * sz);
         b->view[0].v[l] = sx * norm;
         b->view[1].v[l] = sy * norm;
         b->view[2].v[l] = sz * norm;
@@ -81,7 +81,7 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
     const float radius = frame->radius_km, h = frame->height_km, top = frame->top_km, r = radius + h;
     SKV_EACH_LANE(l) {
         const float x = b->view[0].v[l], y = b->view[1].v[l];
-        b->p_km.v[l] = r * skv_sqrtf(x * x + y * y);
+        b->p_km.v[l] = r * skv_root(x * x + y * y);
         b->rm.v[l] = r * b->view[2].v[l];
         b->h_km.v[l] = h;
         b->start_km.v[l] = 0.0f;
@@ -90,7 +90,7 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
         return;
     const float c = (h - top) * (2.0f * radius + h + top), rt = radius + top;
     SKV_EACH_LANE(l) {
-        const float root = skv_sqrtf(skv_maxf((rt - b->p_km.v[l]) * (rt + b->p_km.v[l]), 0.0f));
+        const float root = skv_root(skv_maxf((rt - b->p_km.v[l]) * (rt + b->p_km.v[l]), 0.0f));
         const int enters = b->rm.v[l] < 0.0f && b->p_km.v[l] < rt;
         const float entry = c / (skv_fabsf(b->rm.v[l]) + root);
         b->h_km.v[l] = top;
@@ -108,7 +108,7 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
         const float h = b->h_km.v[l], rm = b->rm.v[l];
         const float c = h * (2.0f * radius + h), e = c - rm * rm;
         const int down = rm < 0.0f, hit = down && e < 0.0f;
-        const float root = skv_sqrtf(skv_maxf(-e, 0.0f));
+        const float root = skv_root(skv_maxf(-e, 0.0f));
         const float to_ground = c / skv_maxf(root - rm, 1e-30f);
         const float from = down ? (hit ? to_ground : -rm) : 0.0f;
         float r;
@@ -143,28 +143,22 @@ SKV_INLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, c
 
 /// Constants K of the view columns K + sigma col(P): up col(O), towards the observer -col(O), past the tangent point
 /// 2 col(T) - col(O), each column taken upward from the start of the air.
-SKV_INLINE void skv_block_columns(const skv_frame *frame, const skv_block *b, skv_columns k[2]) {
+SKV_INLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b, skv_columns k[2]) {
     skv_points o;
     skv_lanes mu, sin_chi;
+    skv_points_above(frame, has, &b->h_km, &o);
     SKV_EACH_LANE(l) {
-        o.h_km.v[l] = b->h_km.v[l];
-        o.r_km.v[l] = frame->radius_km + b->h_km.v[l];
-        mu.v[l] = skv_minf(skv_fabsf(b->rm.v[l]) / o.r_km.v[l], 1.0f);
-        sin_chi.v[l] = skv_minf(b->p_km.v[l] / o.r_km.v[l], 1.0f);
+        mu.v[l] = skv_minf(skv_fabsf(b->rm.v[l]) * o.inv_r.v[l], 1.0f);
+        sin_chi.v[l] = skv_minf(b->p_km.v[l] * o.inv_r.v[l], 1.0f);
     }
-    skv_points_densities(frame, &o);
-    skv_columns_up(frame, &o, &mu, &sin_chi, &k[0]);
+    skv_columns_up(frame, has, &o, &mu, &sin_chi, &k[0]);
     if (b->parts == 2) {
         skv_points t;
-        SKV_EACH_LANE(l) {
-            t.h_km.v[l] = b->leg[1].h_km.v[l];
-            t.r_km.v[l] = frame->radius_km + b->leg[1].h_km.v[l];
-        }
-        skv_points_densities(frame, &t);
-        skv_columns_tangent(frame, &t, &k[1]);
+        skv_points_above(frame, has, &b->leg[1].h_km, &t);
+        skv_columns_tangent(frame, has, &t, &k[1]);
     }
     for (int s = 0; s < SKV_SPECIES; s++) {
-        if (!skv_present(frame, s))
+        if (!SKV_PRESENT(has, s))
             continue;
         if (b->parts == 2)
             SKV_EACH_LANE(l) k[1].of[s].v[l] -= k[0].of[s].v[l];
@@ -180,7 +174,7 @@ typedef struct skv_block_light {
     skv_lanes phase[2]; ///< Rayleigh, aerosol
 } skv_block_light;
 
-SKV_INLINE void skv_block_toward(const skv_frame *frame, int light, const skv_block *b, skv_block_light *out) {
+SKV_INLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b, skv_block_light *out) {
     const float *s = frame->light[light].direction_enu;
     const float g = frame->model->aerosol_g, sz = s[2];
     skv_lanes d;
@@ -196,7 +190,7 @@ SKV_INLINE void skv_block_toward(const skv_frame *frame, int light, const skv_bl
         d.v[l] = skv_phase_distance(g, g < 0.0f ? far : near);
     }
 #if SKV_TERM_AEROSOL
-    if (!skv_present(frame, SKV_AEROSOL))
+    if (!SKV_PRESENT(has, SKV_AEROSOL))
         return;
 #if SKV_PHASE_CORNETTE_SHANKS
     if (frame->model->aerosol_phase == SKV_PHASE_CS)
