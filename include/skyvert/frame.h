@@ -66,8 +66,8 @@ typedef struct skv_frame_light {
 typedef struct skv_frame_species {
     int32_t kind;          ///< NONE: absent or switched off
     float inv_scale_log2e; ///< log2(e)/H
-    float chapman_k;       ///< 1/sqrt(2 H)
-    float chapman_a;       ///< H sqrt(pi) chapman_k, times the reference density at the ground
+    float chapman_ck;      ///< c/sqrt(2 H), c of the erfcx form
+    float chapman_a;       ///< H sqrt(pi)/sqrt(2 H), times the reference density at the ground
     float chapman_z;       ///< 3 H/8
     float background;      ///< constant density beside exp(-h/H)
     float top_column;      ///< 2 H exp(-top/H): twice the column above the top that the closed form counts; 0 = negligible

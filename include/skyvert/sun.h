@@ -81,11 +81,12 @@ typedef struct skv_moon {
 /// @param[in]  position
 /// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_RANGE iff a field of utc or position is out of range, infinite or NaN.
 ///         On error nothing is written.
-/// Source: [Bretagnon88] (24 terms), [Capitaine03] (sidereal time, obliquity), [Meeus98] (five terms of nutation).
+/// Source: [Bretagnon88] (24 terms), [Petit10] (sidereal time, obliquity), [Meeus98] (five terms of nutation).
 /// Error:  on the sphere 0.001 deg over 2020-2050 and over 1900-2100, distance 3e-5 au, against ERFA at DUT1 = 0 (0.005
 ///         deg with DUT1); 0.004 deg where the host rounds otherwise than to nearest. Measured by
 ///         tests/scene/test_ephemeris.c.
-/// Cost:   about 45 sines and cosines, no allocation. Thread-safe: no hidden state.
+/// Cost:   45 sines and cosines, 4,900 x86-64 instructions; stack <= 400 bytes, no allocation. Thread-safe: no hidden
+///         state.
 skv_status skv_sun_at(skv_sun *sun, const skv_utc *utc, const skv_position *position);
 
 /// The centre of the moon seen from a position, as skv_sun_at().
@@ -93,7 +94,7 @@ skv_status skv_sun_at(skv_sun *sun, const skv_utc *utc, const skv_position *posi
 /// Source: [Meeus98] ch. 47, its 39 and 29 largest terms and the planets'; [Chapront83] is behind it.
 /// Error:  on the sphere 0.010 deg over 2020-2050 and 0.015 deg over 1900-2100, distance 40 km, phase angle 0.015 deg,
 ///         against ERFA at DUT1 = 0. Measured by tests/scene/test_ephemeris.c.
-/// Cost:   about 125 sines and cosines.
+/// Cost:   125 sines and cosines, 13,700 x86-64 instructions; stack <= 500 bytes.
 skv_status skv_moon_at(skv_moon *moon, const skv_utc *utc, const skv_position *position);
 
 /// Refraction to add to a geometric elevation, degrees. Source: [Saemundsson86], scaled by pressure and temperature.

@@ -8,11 +8,21 @@
 
 #include "core/elementary.h"
 
-/// col/(rho a) with a = H sqrt(pi) k, k = 1/sqrt(2H), z = 3H/8.
-SKV_INLINE float skv_chapman(float k, float z, float root_r, float inv_r, float mu, float sin_chi) {
-    const float inv = 1.0f / (sin_chi + SKV_ERFCX_C * k * root_r * mu);
-    const float s2 = sin_chi * sin_chi, s4 = s2 * s2;
-    return root_r * inv * skv_erfcx_poly(sin_chi * inv) * (1.0f + z * (s4 * s4) * inv_r);
+/// erfcx at mu = 0, p(1).
+#define SKV_ERFCX_AT_0 skv_erfcx_poly(1.0f)
+
+SKV_INLINE float skv_power8(float x) {
+    const float x2 = x * x, x4 = x2 * x2;
+    return x4 * x4;
+}
+
+/// col/(H sqrt(pi) k sqrt(r) rho), k = 1/sqrt(2H).
+/// @param ckr  SKV_ERFCX_C k sqrt(r)
+/// @param z    3H/8
+/// @param s8r  sin^8/r
+SKV_INLINE float skv_chapman(float ckr, float z, float mu, float sin_chi, float s8r) {
+    const float inv = 1.0f / (sin_chi + ckr * mu);
+    return inv * skv_erfcx_poly(sin_chi * inv) * (1.0f + z * s8r);
 }
 
 #endif

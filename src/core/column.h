@@ -80,10 +80,12 @@ SKV_INLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned has, con
     for (int s = 0; s < 2; s++) {
         if (!SKV_PRESENT(has, s))
             continue;
-        const float k = frame->species[s].chapman_k, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
-        SKV_EACH_LANE(l)
-            out->of[s].v[l] = a * p->rho[s].v[l] *
-                              skv_chapman(k, z, p->root_r.v[l], p->inv_r.v[l], mu->v[l], sin_chi->v[l]);
+        const float ck = frame->species[s].chapman_ck, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
+        SKV_EACH_LANE(l) {
+            const float root = p->root_r.v[l], s8r = skv_power8(sin_chi->v[l]) * p->inv_r.v[l];
+            out->of[s].v[l] =
+                a * root * p->rho[s].v[l] * skv_chapman(ck * root, z, mu->v[l], sin_chi->v[l], s8r);
+        }
     }
 #if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
     if ((has & (SKV_HAS_OZONE | SKV_HAS_RATIO)) != 0)
@@ -98,10 +100,10 @@ SKV_INLINE void skv_columns_chapman_tangent(const skv_frame *frame, unsigned has
     for (int s = 0; s < 2; s++) {
         if (!SKV_PRESENT(has, s))
             continue;
-        const float k = frame->species[s].chapman_k, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
+        const float a = 2.0f * frame->species[s].chapman_a, z = frame->species[s].chapman_z;
         SKV_EACH_LANE(l)
             out->of[s].v[l] =
-                2.0f * a * p->rho[s].v[l] * skv_chapman(k, z, p->root_r.v[l], p->inv_r.v[l], 0.0f, 1.0f);
+                a * p->root_r.v[l] * p->rho[s].v[l] * (SKV_ERFCX_AT_0 + SKV_ERFCX_AT_0 * z * p->inv_r.v[l]);
     }
 #if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
     if ((has & (SKV_HAS_OZONE | SKV_HAS_RATIO)) != 0)

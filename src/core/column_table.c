@@ -66,9 +66,9 @@ static float skv_column_base(const skv_species *species, float radius, float h, 
     if (species->column == 2)
         return t;
     const float scale = species->scale_height_km, k = 1.0f / skv_sqrtf(2.0f * scale);
-    const float a = scale * 1.77245385f * k;
-    return a * skv_exp2f(-h * species->inv_scale_log2e) *
-           skv_chapman(k, 0.375f * scale, skv_sqrtf(radius + h), 1.0f / (radius + h), mu, skv_sqrtf(1.0f - mu * mu));
+    const float r = radius + h, root = skv_sqrtf(r), sin_chi = skv_sqrtf(1.0f - mu * mu);
+    return scale * 1.77245385f * k * root * skv_exp2f(-h * species->inv_scale_log2e) *
+           skv_chapman(SKV_ERFCX_C * k * root, 0.375f * scale, mu, sin_chi, skv_power8(sin_chi) / r);
 }
 
 static float skv_row_altitude(const skv_species *species, float top, int i, int rows) {

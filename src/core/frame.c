@@ -69,8 +69,9 @@ static void skv_frame_species_init(skv_frame *f, int s) {
     const float scale = sp->scale_height_km, at_ground = skv_minf(skv_exp2f(-f->ground_km * sp->inv_scale_log2e), 1e6f);
     out->kind = (f->quality.terms & (1u << s)) != 0 ? sp->kind : SKV_PROFILE_NONE;
     out->inv_scale_log2e = sp->inv_scale_log2e;
-    out->chapman_k = 1.0f / skv_sqrtf(2.0f * scale);
-    out->chapman_a = scale * 1.77245385f * out->chapman_k * (sp->column != 0 ? at_ground : 1.0f);
+    const float k = 1.0f / skv_sqrtf(2.0f * scale);
+    out->chapman_ck = SKV_ERFCX_C * k;
+    out->chapman_a = scale * 1.77245385f * k * (sp->column != 0 ? at_ground : 1.0f);
     out->chapman_z = 0.375f * scale;
     out->background = sp->background / skv_maxf(at_ground, 1e-30f);
     const float beyond = 2.0f * scale * skv_exp2f(-f->top_km * sp->inv_scale_log2e);

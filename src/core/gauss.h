@@ -63,15 +63,105 @@ SKV_INLINE void skv_legs_map(const skv_frame *frame, unsigned has, const skv_leg
     }
 }
 
+/// A sample per lane: what skv_scatter() needs of it.
+typedef struct skv_samples {
+    skv_lanes ds;       ///< path length it stands for
+    skv_lanes e;        ///< r^2 - R^2
+    skv_lanes rm, rms;  ///< r mu along the leg, r mu_s
+    skv_points p;
+    skv_columns c;      ///< light -> sample -> observer
+} skv_samples;
+
+/// Columns of two exponentials in closed form (and ozone from its table), all in one pass.
+SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
+    const float radius = frame->radius_km, radius2 = radius * radius, top = frame->top_km;
+    const float rt = radius + top, inv_rt2 = 1.0f / (rt * rt);
+    skv_lanes mu_view, mu_light, h_tangent;
+    SKV_EACH_LANE(l) {
+        const float e = q->e.v[l], rms = q->rms.v[l];
+        const float r = skv_root(radius2 + e), h = skv_minf(e / (radius + r), top);
+        const float inv_r = 1.0f / r, root_r = skv_root(r);
+        const float mv = skv_clampf(q->rm.v[l] * inv_r, 0.0f, 1.0f), sv = skv_minf(leg->p_km.v[l] * inv_r, 1.0f);
+        const float ml = skv_minf(skv_fabsf(rms * inv_r), 1.0f), sl = skv_root(1.0f - ml * ml);
+        const float v8 = skv_power8(sv) * inv_r, l8 = skv_power8(sl) * inv_r;
+        float tangent_r = radius, tangent_h = 0.0f;
+        if ((has & SKV_HAS_DOWN) != 0) {
+            const float et = skv_maxf(h * (2.0f * radius + h) - rms * rms, 0.0f);
+            tangent_r = skv_root(radius2 + et);
+            tangent_h = skv_minf(et / (radius + tangent_r), top);
+        }
+        const float m2 = (rms * rms + (top - h) * (radius + rt + h)) * inv_rt2;
+        for (int s = 0; s < 2; s++) {
+            if (!SKV_PRESENT(has, s))
+                continue;
+            const skv_frame_species *sp = &frame->species[s];
+            const float rho = skv_exp2f_decay(-h * sp->inv_scale_log2e), kr = sp->chapman_ck * root_r;
+            const float amount = sp->chapman_a * root_r * rho;
+            const float view = amount * skv_chapman(kr, sp->chapman_z, mv, sv, v8);
+            float light = amount * skv_chapman(kr, sp->chapman_z, ml, sl, l8);
+            if ((has & SKV_HAS_DOWN) != 0) {
+                const float both = 2.0f * sp->chapman_a * skv_root(tangent_r) *
+                                   skv_exp2f_decay(-tangent_h * sp->inv_scale_log2e) *
+                                   (SKV_ERFCX_AT_0 + SKV_ERFCX_AT_0 * sp->chapman_z / tangent_r);
+                light = rms < 0.0f ? both - light : light;
+            }
+            if ((has & SKV_HAS_CUT) != 0)
+                light -= sp->top_column / (skv_root(m2) + skv_root(m2 + sp->top_k * skv_maxf(1.0f - m2, 0.0f)));
+            q->p.rho[s].v[l] = rho;
+            q->c.of[s].v[l] =
+                skv_maxf(light, 0.0f) + skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view, 0.0f);
+        }
+        q->p.h_km.v[l] = h;
+        mu_view.v[l] = mv;
+        mu_light.v[l] = ml;
+        h_tangent.v[l] = tangent_h;
+    }
+#if SKV_TERM_OZONE
+    if (SKV_PRESENT(has, SKV_OZONE)) {
+        skv_columns view, light, both;
+        skv_columns_tables_up(frame, SKV_HAS_OZONE, &q->p.h_km, &mu_view, &view);
+        skv_columns_tables_up(frame, SKV_HAS_OZONE, &q->p.h_km, &mu_light, &light);
+        if ((has & SKV_HAS_DOWN) != 0) {
+            skv_columns_tables_tangent(frame, SKV_HAS_OZONE, &h_tangent, &both);
+            SKV_EACH_LANE(l) {
+                const float up = light.of[SKV_OZONE].v[l], down = both.of[SKV_OZONE].v[l] - up;
+                light.of[SKV_OZONE].v[l] = q->rms.v[l] < 0.0f ? down : up;
+            }
+        }
+        SKV_EACH_LANE(l)
+            q->c.of[SKV_OZONE].v[l] =
+                skv_maxf(light.of[SKV_OZONE].v[l], 0.0f) +
+                skv_maxf(leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.of[SKV_OZONE].v[l], 0.0f);
+    }
+#endif
+}
+
+/// Columns of any profiles by any backend.
+SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
+    skv_lanes mu, sin_view;
+    skv_columns view;
+    skv_points_at(frame, has, &q->e, &q->p);
+    SKV_EACH_LANE(l) {
+        mu.v[l] = skv_clampf(q->rm.v[l] * q->p.inv_r.v[l], 0.0f, 1.0f);
+        sin_view.v[l] = skv_minf(leg->p_km.v[l] * q->p.inv_r.v[l], 1.0f);
+    }
+    skv_columns_up(frame, has, &q->p, &mu, &sin_view, &view);
+    skv_columns_light(frame, has, &q->p, &q->rms, &q->c);
+    for (int s = 0; s < SKV_SPECIES; s++)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l)
+                q->c.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
+}
+
 /// Single scattering along `count` legs, added to where they say.
 SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
                                  const float irradiance[4]) {
     const int n = frame->quality.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
-    skv_points p;
+    skv_samples q;
     skv_lanes e0, rm, rms, l_km, k, whole, grown, radiance[SKV_BANDS_MAX];
-    skv_legs_start(frame, has, leg, &p, &e0, &rm, &rms);
-    skv_legs_map(frame, has, leg, &p, &rm, &rms, &l_km, &k, &whole);
+    skv_legs_start(frame, has, leg, &q.p, &e0, &rm, &rms);
+    skv_legs_map(frame, has, leg, &q.p, &rm, &rms, &l_km, &k, &whole);
     for (int b = 0; b < bands; b++)
         SKV_EACH_LANE(l) radiance[b].v[l] = 0.0f;
 
@@ -79,31 +169,22 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
     for (int i = 0; i < n; i++) {
         const int far = i & 1, at = far ? n - 1 - i / 2 : i / 2;
         const float u = 1.44269504f * node[at], w = weight[at];
-        skv_lanes e, ds, mu, sin_view, rms_p;
-        skv_columns view, light;
         if (far)
             SKV_EACH_LANE(l) grown.v[l] = whole.v[l] / grown.v[l];
         else
             SKV_EACH_LANE(l) grown.v[l] = skv_exp2f_d5(k.v[l] * u);
         SKV_EACH_LANE(l) {
             const float g = grown.v[l], s = l_km.v[l] * (g - 1.0f);
-            ds.v[l] = w * k.v[l] * l_km.v[l] * g;
-            e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
-            mu.v[l] = rm.v[l] + s;
-            rms_p.v[l] = rms.v[l] + s * leg->nu.v[l];
+            q.ds.v[l] = w * k.v[l] * l_km.v[l] * g;
+            q.e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            q.rm.v[l] = rm.v[l] + s;
+            q.rms.v[l] = rms.v[l] + s * leg->nu.v[l];
         }
-        skv_points_at(frame, has, &e, &p);
-        SKV_EACH_LANE(l) {
-            mu.v[l] = skv_clampf(mu.v[l] * p.inv_r.v[l], 0.0f, 1.0f);
-            sin_view.v[l] = skv_minf(leg->p_km.v[l] * p.inv_r.v[l], 1.0f);
-        }
-        skv_columns_up(frame, has, &p, &mu, &sin_view, &view);
-        skv_columns_light(frame, has, &p, &rms_p, &light);
-        for (int s = 0; s < SKV_SPECIES; s++)
-            if (SKV_PRESENT(has, s))
-                SKV_EACH_LANE(l)
-                    light.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
-        skv_scatter(frame, has, &p, leg->phase, &ds, &light, radiance);
+        if ((has & SKV_HAS_GENERAL) != 0)
+            skv_samples_general(frame, has, leg, &q);
+        else
+            skv_samples_closed(frame, has, leg, &q);
+        skv_scatter(frame, has, &q.p, leg->phase, &q.ds, &q.c, radiance);
     }
     for (int l = 0; l < count; l++)
         for (int b = 0; b < bands; b++)

@@ -44,6 +44,7 @@ enum {
     SKV_HAS_CUT = 64,        ///< the closed form reaches beyond the top
     SKV_HAS_DOWN = 128,      ///< a light may lie below the horizontal of a sample
     SKV_HAS_FOUR = 256,      ///< four bands
+    SKV_HAS_GENERAL = SKV_HAS_RATIO | SKV_HAS_BACKGROUND | SKV_HAS_INNER,
     /// What is compiled in at all.
     SKV_HAS_BUILT = (SKV_TERM_RAYLEIGH ? 1 : 0) | (SKV_TERM_AEROSOL ? 2 : 0) | (SKV_TERM_OZONE ? 4 : 0) |
                     (SKV_PROFILE_TABULATED ? 8 : 0) | 16 | (SKV_DEPTH_INNER ? 32 : 0) | (SKV_DEPTH_CHAPMAN ? 64 : 0) |

@@ -7,6 +7,18 @@
 #include "core/midpoint.h"
 #include "core/shadow.h"
 
+/// Written one by one: a call of memset() costs more than these few bytes.
+SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t n) {
+    const size_t stride = sky->radiance_stride ? sky->radiance_stride : bands * sizeof(float);
+    char *at = (char *)sky->radiance + first * stride;
+    for (size_t i = 0; i < n; i++, at += stride) {
+        float *out = (float *)(void *)at;
+        out[0] = out[1] = out[2] = 0.0f;
+        if (bands == 4)
+            out[3] = 0.0f;
+    }
+}
+
 #if SKV_RULE_GAUSS_EXP
 /// One leg of each ray as the light sees it.
 SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, const skv_block *block, int part,
@@ -45,6 +57,13 @@ SKV_INLINE void skv_legs_copy(const skv_legs *from, int l, skv_legs *to, int q) 
     for (int s = 0; s < SKV_SPECIES; s++)
         to->k.of[s].v[q] = from->k.of[s].v[l];
     to->out[q] = from->out[l];
+}
+
+SKV_INLINE void skv_legs_outputs(const skv_sky *sky, size_t bands, size_t first, int count, float *out[]) {
+    const size_t stride = sky->radiance_stride ? sky->radiance_stride : bands * sizeof(float);
+    char *at = (char *)sky->radiance + first * stride;
+    for (int l = 0; l < count; l++, at += stride)
+        out[l] = (float *)(void *)at;
 }
 
 /// A queue keeps every lane of a block busy with a lit leg, whatever the rays.
@@ -93,12 +112,13 @@ static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv
         skv_block_columns(frame, has, &block, k);
         skv_block_toward(frame, has, light, &block, &toward);
         bad |= block.bad;
+        if (light == 0)
+            skv_clear(sky, bands, first, (size_t)block.count);
         for (int part = 0; part < block.parts; part++) {
             skv_legs leg;
             skv_lanes dark_from, dark_to;
             skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], &leg);
-            for (int l = 0; l < block.count; l++)
-                leg.out[l] = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, first + (size_t)l);
+            skv_legs_outputs(sky, bands, first, block.count, leg.out);
             if (skv_leg_shadow(frame, &block, part, &toward, &leg.rms, &leg.nu, &dark_from, &dark_to)) {
                 leg.b = dark_from;
                 skv_queue_push(frame, light, &leg, block.count, &queue);
@@ -127,18 +147,6 @@ static skv_status skv_check_strides(const skv_rays *rays, const skv_sky *sky, si
     return SKV_OK;
 }
 
-static void skv_clear(size_t n, size_t bands, const skv_sky *sky) {
-    if (sky->radiance_stride == 0 || sky->radiance_stride == bands * sizeof(float)) {
-        memset(sky->radiance, 0, n * bands * sizeof(float));
-        return;
-    }
-    for (size_t i = 0; i < n; i++) {
-        float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, i);
-        for (size_t b = 0; b < bands; b++)
-            out[b] = 0.0f;
-    }
-}
-
 skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
     if (!frame || !rays || !sky || !rays->direction_enu || !sky->radiance)
         return SKV_ERR_NULL;
@@ -152,7 +160,8 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
     if (sky->transmittance)
         return SKV_ERR_UNSUPPORTED;
 #endif
-    skv_clear(n, bands, sky);
+    if (frame->lights == 0 || frame->quality.rule != SKV_GAUSS_EXP)
+        skv_clear(sky, bands, 0, n);
     int bad = 0;
     for (int light = 0; light < frame->lights; light++) {
 #if SKV_RULE_GAUSS_EXP

@@ -13,6 +13,9 @@
 #include "core/column.h"
 #include "core/phase.h"
 
+/// Longer than any ray through air.
+#define SKV_FAR_KM 1e9f
+
 typedef struct skv_block {
     int count;               ///< lanes in use; the others repeat an empty ray
     int parts;               ///< 2 iff some lane has a tangent point
@@ -41,39 +44,44 @@ static inline float *skv_at_mutable(float *base, size_t stride, size_t fields, s
     return (float *)(void *)((char *)base + i * (stride ? stride : fields * sizeof(float)));
 }
 
-/// Unit view directions; a refused one becomes an empty ray to the zenith.
-SKV_INLINE void skv_block_directions(size_t n, size_t first, const skv_rays *rays, skv_block *b) {
-    const size_t left = n - first;
+/// The caller's directions and lengths; lanes beyond the last ray repeat it.
+SKV_INLINE void skv_block_gather(size_t n, size_t first, const skv_rays *rays, skv_block *b) {
+    const size_t left = n - first, stride = rays->direction_stride ? rays->direction_stride : 3 * sizeof(float);
+    const char *at = (const char *)rays->direction_enu + first * stride;
     b->count = left < SKV_LANES ? (int)left : SKV_LANES;
-    b->bad = 0;
     for (int l = 0; l < SKV_LANES; l++) {
-        const size_t i = first + (size_t)(l < b->count ? l : 0);
-        const float *v = skv_at(rays->direction_enu, rays->direction_stride, 3, i);
+        const float *v = (const float *)(const void *)at;
         b->view[0].v[l] = v[0];
         b->view[1].v[l] = v[1];
         b->view[2].v[l] = v[2];
-        b->length_km.v[l] = rays->length_km ? *skv_at(rays->length_km, rays->length_stride, 1, i) : 1e9f;
+        at += l < b->count - 1 ? stride : 0;
     }
+    SKV_EACH_LANE(l) b->length_km.v[l] = SKV_FAR_KM;
+    if (rays->length_km)
+        for (int l = 0; l < b->count; l++)
+            b->length_km.v[l] = *skv_at(rays->length_km, rays->length_stride, 1, first + (size_t)l);
+}
+
+/// Unit view directions; a refused one becomes an empty ray to the zenith.
+SKV_INLINE void skv_block_directions(skv_block *b) {
+    float all = 1.0f;
     SKV_EACH_LANE(l) {
-        const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l];
-        // The largest component first: squares of any float neither overflow nor vanish. NaN fails the comparison.
+        const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l], length = b->length_km.v[l];
+        // The largest component first: squares of any float neither overflow nor vanish. x - x is 0 or NaN.
         const float m = skv_maxf(skv_maxf(skv_fabsf(x), skv_fabsf(y)), skv_fabsf(z));
-        const float valid = m >= 1.17549435e-38f && m <= 3.40282347e38f && x - x == 0.0f && y - y == 0.0f &&
-                                    z - z == 0.0f && b->length_km.v[l] >= 0.0f
-                                ? 1.0f
-                                : 0.0f;
-        const float inv = 1.0f / (valid > 0.0f ? m : 1.0f);
-        const float sx = valid > 0.0f ? x * inv : 0.0f, sy = valid > 0.0f ? y * inv : 0.0f;
-        const float sz = valid > 0.0f ? z * inv : 1.0f;
+        const float zero = (x - x) + (y - y) + (z - z);
+        const int ok = (zero == 0.0f) & (m >= 1.17549435e-38f) & (length >= 0.0f);
+        const float inv = 1.0f / (ok ? m : 1.0f);
+        const float sx = ok ? x * inv : 0.0f, sy = ok ? y * inv : 0.0f, sz = ok ? z * inv : 1.0f;
         const float norm = 1.0f / skv_root(sx * sx + sy * sy + sz * sz);
         b->view[0].v[l] = sx * norm;
         b->view[1].v[l] = sy * norm;
         b->view[2].v[l] = sz * norm;
-        b->length_km.v[l] = valid > 0.0f ? skv_minf(b->length_km.v[l], 1e9f) : -1.0f;
-        b->valid.v[l] = valid;
+        b->length_km.v[l] = ok ? skv_minf(length, SKV_FAR_KM) : -1.0f;
+        b->valid.v[l] = ok ? 1.0f : 0.0f;
     }
-    for (int l = 0; l < b->count; l++)
-        b->bad |= b->valid.v[l] < 1.0f;
+    SKV_EACH_LANE(l) all = skv_minf(all, b->valid.v[l]);
+    b->bad = all < 1.0f;
 }
 
 /// Where each ray enters the air: at the observer, or from above the top.
@@ -91,7 +99,7 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
     const float c = (h - top) * (2.0f * radius + h + top), rt = radius + top;
     SKV_EACH_LANE(l) {
         const float root = skv_root(skv_maxf((rt - b->p_km.v[l]) * (rt + b->p_km.v[l]), 0.0f));
-        const int enters = b->rm.v[l] < 0.0f && b->p_km.v[l] < rt;
+        const int enters = (b->rm.v[l] < 0.0f) & (b->p_km.v[l] < rt);
         const float entry = c / (skv_fabsf(b->rm.v[l]) + root);
         b->h_km.v[l] = top;
         b->rm.v[l] = enters ? -root : 0.0f;
@@ -105,38 +113,43 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
     const float radius = frame->radius_km, top = frame->top_km;
     float tangents = 0.0f;
     SKV_EACH_LANE(l) {
-        const float h = b->h_km.v[l], rm = b->rm.v[l];
+        const float h = b->h_km.v[l], rm = b->rm.v[l], length = skv_maxf(b->length_km.v[l], 0.0f);
         const float c = h * (2.0f * radius + h), e = c - rm * rm;
-        const int down = rm < 0.0f, hit = down && e < 0.0f;
-        const float root = skv_root(skv_maxf(-e, 0.0f));
+        const float root = skv_root(skv_maxf(-e, 0.0f)), lowest = skv_maxf(e, 0.0f);
         const float to_ground = c / skv_maxf(root - rm, 1e-30f);
-        const float from = down ? (hit ? to_ground : -rm) : 0.0f;
-        float r;
-        const float ht = skv_minf(skv_altitude(radius, skv_maxf(e, 0.0f), &r), h);
-        const float length = skv_maxf(b->length_km.v[l], 0.0f);
-        const float h0 = down ? (hit ? 0.0f : ht) : h, rm0 = down ? (hit ? root : 0.0f) : rm;
-        b->leg[0].h_km.v[l] = h0;
-        b->leg[0].rm.v[l] = rm0;
+        const int down = rm < 0.0f, hit = down & (e < 0.0f), miss = down & (e >= 0.0f);
+        const float ht = skv_minf(lowest / (radius + skv_root(radius * radius + lowest)), h);
+        const float up = skv_minf(skv_to_top(radius, top, h, rm), length);
+        const float from = hit ? to_ground : miss ? -rm : 0.0f;
+        const float a = skv_maxf(from - length, 0.0f);
+        b->leg[0].h_km.v[l] = hit ? 0.0f : miss ? ht : h;
+        b->leg[0].rm.v[l] = hit ? root : miss ? 0.0f : rm;
         b->leg[0].from_km.v[l] = b->start_km.v[l] + from;
         b->leg[0].dir.v[l] = down ? -1.0f : 1.0f;
-        b->leg[0].a.v[l] = down ? skv_maxf(from - length, 0.0f) : 0.0f;
-        b->leg[0].b.v[l] = down ? from : skv_minf(skv_to_top(radius, top, h, rm), length);
-        b->meets_ground.v[l] = hit && length >= from ? 1.0f : 0.0f;
+        b->leg[0].a.v[l] = a;
+        // Refused, or past the air: nothing at all.
+        b->leg[0].b.v[l] = b->length_km.v[l] > 0.0f ? (down ? from : up) : a;
+        b->meets_ground.v[l] = (hit & (length >= from)) != 0 ? 1.0f : 0.0f;
+        b->leg[1].b.v[l] = miss ? length - from : 0.0f;
+    }
+    SKV_EACH_LANE(l) tangents = skv_maxf(tangents, b->leg[1].b.v[l]);
+    b->parts = tangents > 0.0f ? 2 : 1;
+    if (b->parts == 1)
+        return;
+    SKV_EACH_LANE(l) {
+        const float ht = b->leg[0].h_km.v[l];
         b->leg[1].h_km.v[l] = ht;
         b->leg[1].rm.v[l] = 0.0f;
-        b->leg[1].from_km.v[l] = b->start_km.v[l] + from;
+        b->leg[1].from_km.v[l] = b->leg[0].from_km.v[l];
         b->leg[1].dir.v[l] = 1.0f;
         b->leg[1].a.v[l] = 0.0f;
-        b->leg[1].b.v[l] = down && !hit ? skv_minf(skv_to_top(radius, top, ht, 0.0f), length - from) : 0.0f;
-        // Refused, or past the air: nothing at all.
-        b->leg[0].b.v[l] = b->length_km.v[l] > 0.0f ? b->leg[0].b.v[l] : b->leg[0].a.v[l];
-        tangents = skv_maxf(tangents, b->leg[1].b.v[l]);
+        b->leg[1].b.v[l] = skv_minf(skv_to_top(radius, top, ht, 0.0f), skv_maxf(b->leg[1].b.v[l], 0.0f));
     }
-    b->parts = tangents > 0.0f ? 2 : 1;
 }
 
 SKV_INLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays, skv_block *b) {
-    skv_block_directions(n, first, rays, b);
+    skv_block_gather(n, first, rays, b);
+    skv_block_directions(b);
     skv_block_start(frame, b);
     skv_block_legs(frame, b);
 }

@@ -26,15 +26,15 @@ SKV_INLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, in
         const float b = block->leg[part].dir.v[l] * (r0 * light->climb.v[l] + block->leg[part].from_km.v[l] * a);
         const float c = h * (2.0f * radius + h) - rms->v[l] * rms->v[l];
         const float disc = b * b - a * c;
-        const float q = skv_sqrtf(skv_maxf(disc, 0.0f));
+        const float q = skv_root(skv_maxf(disc, 0.0f));
         const float t = b < 0.0f ? q - b : -(b + q);
         const float t1 = t / a, t2 = c / (skv_fabsf(t) > 1e-30f ? t : 1e-30f);
         const float lo = skv_maxf(skv_minf(t1, t2), begin), hi = skv_minf(skv_maxf(t1, t2), end);
-        const int dark = disc > 0.0f && lo < hi && rms->v[l] + 0.5f * (lo + hi) * nu->v[l] < 0.0f;
+        const int dark = (disc > 0.0f) & (lo < hi) & (rms->v[l] + 0.5f * (lo + hi) * nu->v[l] < 0.0f);
         from->v[l] = dark ? lo : end;
         to->v[l] = dark ? hi : end;
-        any = skv_maxf(any, dark ? 1.0f : 0.0f);
     }
+    SKV_EACH_LANE(l) any = skv_maxf(any, to->v[l] - from->v[l]);
     return any > 0.0f;
 }
 

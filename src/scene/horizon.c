@@ -11,7 +11,8 @@
 #define HEIGHT_MIN_KM (-12.0f)
 #define HEIGHT_MAX_KM 1.0e6f
 
-/// Nutation by its five largest terms (0.3 arc seconds) [Meeus98] ch. 22, with the mean obliquity of [Capitaine03].
+/// Nutation by its five largest terms (0.3 arc seconds) [Meeus98] ch. 22, with the mean obliquity of [Petit10]
+/// eq. 5.40.
 skv_equator skv_equator_at(const skv_instant *instant) {
     const skv_turn node = skv_linear_at(SKV_MOON_NODE, instant);
     const skv_sincos n1 = skv_sincos_of_turn(node);

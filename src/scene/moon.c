@@ -54,7 +54,7 @@ static const latitude_term off_plane[] = {
 
 #define COUNT(a) ((int)(sizeof(a) / sizeof((a)[0])))
 
-/// Mean radius [IAU15]; an observer this near would be inside.
+/// Mean radius [Archinal18]; an observer this near would be inside.
 #define MOON_RADIUS_KM 1737.4f
 
 typedef struct delaunay {
@@ -80,15 +80,15 @@ static float eccentricity_of(const delaunay *x, int m) {
     return x->e[m < 0 ? -m : m];
 }
 
-/// 1e-6 deg.
-static float sine(skv_turn turn) {
+static float sin_of(skv_turn turn) {
     return skv_sincos_of_turn(turn).sin;
 }
 
+/// 1e-6 deg.
 static float latitude_sum(const delaunay *x, const skv_instant *instant) {
     const skv_turn longitude = skv_linear_at(SKV_MOON_LONGITUDE, instant);
-    float sum = 382.0f * sine(skv_linear_at(SKV_MOON_A3, instant)) - 2235.0f * sine(longitude) +
-                127.0f * sine(longitude - x->a) - 115.0f * sine(longitude + x->a);
+    float sum = 382.0f * sin_of(skv_linear_at(SKV_MOON_A3, instant)) - 2235.0f * sin_of(longitude) +
+                127.0f * sin_of(longitude - x->a) - 115.0f * sin_of(longitude + x->a);
     for (int i = COUNT(off_plane) - 1; i >= 0; i--) {
         const latitude_term *t = &off_plane[i];
         sum += t->latitude * eccentricity_of(x, t->m) * argument_of(x, t->d, t->m, t->a, t->f).sin;
@@ -99,8 +99,8 @@ static float latitude_sum(const delaunay *x, const skv_instant *instant) {
 static skv_ecliptic moon_ecliptic(const skv_instant *instant) {
     const delaunay x = delaunay_at(instant);
     const skv_turn mean = skv_linear_at(SKV_MOON_LONGITUDE, instant);
-    float longitude = 3958.0f * sine(skv_linear_at(SKV_VENUS_A1, instant)) + 1962.0f * sine(mean - x.f) +
-                      318.0f * sine(skv_linear_at(SKV_JUPITER_A2, instant));
+    float longitude = 3958.0f * sin_of(skv_linear_at(SKV_VENUS_A1, instant)) + 1962.0f * sin_of(mean - x.f) +
+                      318.0f * sin_of(skv_linear_at(SKV_JUPITER_A2, instant));
     float distance = 0.0f;
     for (int i = COUNT(in_plane) - 1; i >= 0; i--) { // smallest first
         const in_plane_term *t = &in_plane[i];
