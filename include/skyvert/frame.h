@@ -74,6 +74,13 @@ typedef struct skv_frame_species {
     float top_k;           ///< 8 H/(pi (R + top))
 } skv_frame_species;
 
+/// Bounds that the inner loops clamp to. In memory and not as literals: gcc makes one instruction of a minimum of two
+/// variables and two of one with a literal.
+typedef struct skv_frame_limits {
+    float zero, one;
+    float exp2_floor; ///< -126
+} skv_frame_limits;
+
 /// Derived, constant after skv_frame_begin(); points to the model, which must outlive it.
 typedef struct skv_frame {
     uint32_t layout;
@@ -86,6 +93,7 @@ typedef struct skv_frame {
     float ground_km; ///< its altitude above the sea
     float height_km; ///< of the observer above the ground, clamped to it
     float top_km;    ///< of the air above the ground
+    skv_frame_limits limits;
     skv_frame_species species[3];
     float inner_scale_km; ///< of the exponential map of the inner depth
     float map_per_km[2];  ///< extinction that shortens the map of gauss-exp, per unit of relative density

@@ -33,7 +33,7 @@ SKV_INLINE void skv_points_at(const skv_frame *frame, unsigned has, const skv_la
     for (int s = 0; s < 2; s++)
         if (SKV_PRESENT(has, s)) {
             const float k = -frame->species[s].inv_scale_log2e;
-            SKV_EACH_LANE(l) p->rho[s].v[l] = skv_exp2f_decay(p->h_km.v[l] * k);
+            SKV_EACH_LANE(l) p->rho[s].v[l] = skv_decay(&frame->limits, p->h_km.v[l] * k);
         }
 }
 
@@ -135,7 +135,7 @@ SKV_INLINE void skv_densities(const skv_frame *frame, unsigned has, const skv_po
 /// By Gauss-Legendre nodes in an exponential map: any profile, any size of planet.
 SKV_INLINE void skv_columns_inner_up(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
                                      skv_columns *out) {
-    const int m = frame->quality.depth_samples;
+    const int want = frame->quality.depth_samples, m = want < 2 ? 2 : want > 16 ? 16 : want;
     const float *node = skv_gauss_node + skv_gauss_offset(m), *weight = skv_gauss_weight + skv_gauss_offset(m);
     const float radius = frame->radius_km, hs = frame->inner_scale_km;
     skv_lanes l_km, k, e0, rm, top;

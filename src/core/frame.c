@@ -149,6 +149,7 @@ skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_q
     skv_frame f;
     memset(&f, 0, sizeof f);
     f.model = model;
+    f.limits = (skv_frame_limits){0.0f, 1.0f, -126.0f};
     if (quality)
         f.quality = *quality;
     else

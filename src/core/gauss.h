@@ -24,7 +24,7 @@ SKV_INLINE float skv_map_inverse(float hs, float mu, float inv_r, float extincti
     return (0.5f * mu + skv_root(0.25f * mu * mu + 0.5f * hs * inv_r)) / hs + 0.15f * extinction_per_km;
 }
 
-/// Hs against the sine of the light's elevation: one smooth function, so that nothing pops.
+/// Hs against the sine of the light's elevation, of one unit of the frame's scale: smooth, so that nothing pops.
 SKV_INLINE float skv_map_scale(float mu_s) {
     const float x = skv_clampf((0.2f - mu_s) * 2.5f, 0.0f, 1.0f);
     return 6.0f + 6.0f * x * x * (3.0f - 2.0f * x);
@@ -74,6 +74,7 @@ typedef struct skv_samples {
 
 /// Columns of two exponentials in closed form (and ozone from its table), all in one pass.
 SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
+    const skv_frame_limits *limits = &frame->limits;
     const float radius = frame->radius_km, radius2 = radius * radius, top = frame->top_km;
     const float rt = radius + top, inv_rt2 = 1.0f / (rt * rt);
     skv_lanes mu_view, mu_light, h_tangent;
@@ -81,35 +82,34 @@ SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const s
         const float e = q->e.v[l], rms = q->rms.v[l];
         const float r = skv_root(radius2 + e), h = skv_minf(e / (radius + r), top);
         const float inv_r = 1.0f / r, root_r = skv_root(r);
-        const float mv = skv_clampf(q->rm.v[l] * inv_r, 0.0f, 1.0f), sv = skv_minf(leg->p_km.v[l] * inv_r, 1.0f);
-        const float ml = skv_minf(skv_fabsf(rms * inv_r), 1.0f), sl = skv_root(1.0f - ml * ml);
+        const float mv = q->rm.v[l] * inv_r, sv = skv_minf(leg->p_km.v[l] * inv_r, limits->one);
+        const float ml = skv_minf(skv_fabsf(rms * inv_r), limits->one), sl = skv_root(1.0f - ml * ml);
         const float v8 = skv_power8(sv) * inv_r, l8 = skv_power8(sl) * inv_r;
         float tangent_r = radius, tangent_h = 0.0f;
         if ((has & SKV_HAS_DOWN) != 0) {
-            const float et = skv_maxf(h * (2.0f * radius + h) - rms * rms, 0.0f);
+            const float et = skv_maxf(h * (2.0f * radius + h) - rms * rms, limits->zero);
             tangent_r = skv_root(radius2 + et);
             tangent_h = skv_minf(et / (radius + tangent_r), top);
         }
-        const float m2 = (rms * rms + (top - h) * (radius + rt + h)) * inv_rt2;
+        const float m2 = skv_minf((rms * rms + (top - h) * (radius + rt + h)) * inv_rt2, limits->one);
         for (int s = 0; s < 2; s++) {
             if (!SKV_PRESENT(has, s))
                 continue;
             const skv_frame_species *sp = &frame->species[s];
-            const float rho = skv_exp2f_decay(-h * sp->inv_scale_log2e), kr = sp->chapman_ck * root_r;
+            const float rho = skv_decay(limits, -h * sp->inv_scale_log2e), kr = sp->chapman_ck * root_r;
             const float amount = sp->chapman_a * root_r * rho;
             const float view = amount * skv_chapman(kr, sp->chapman_z, mv, sv, v8);
             float light = amount * skv_chapman(kr, sp->chapman_z, ml, sl, l8);
             if ((has & SKV_HAS_DOWN) != 0) {
                 const float both = 2.0f * sp->chapman_a * skv_root(tangent_r) *
-                                   skv_exp2f_decay(-tangent_h * sp->inv_scale_log2e) *
+                                   skv_decay(limits, -tangent_h * sp->inv_scale_log2e) *
                                    (SKV_ERFCX_AT_0 + SKV_ERFCX_AT_0 * sp->chapman_z / tangent_r);
                 light = rms < 0.0f ? both - light : light;
             }
             if ((has & SKV_HAS_CUT) != 0)
-                light -= sp->top_column / (skv_root(m2) + skv_root(m2 + sp->top_k * skv_maxf(1.0f - m2, 0.0f)));
+                light -= sp->top_column / (skv_root(m2) + skv_root(m2 + sp->top_k * (1.0f - m2)));
             q->p.rho[s].v[l] = rho;
-            q->c.of[s].v[l] =
-                skv_maxf(light, 0.0f) + skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view, 0.0f);
+            q->c.of[s].v[l] = light + (leg->k.of[s].v[l] + leg->sigma.v[l] * view);
         }
         q->p.h_km.v[l] = h;
         mu_view.v[l] = mv;
@@ -130,8 +130,7 @@ SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const s
         }
         SKV_EACH_LANE(l)
             q->c.of[SKV_OZONE].v[l] =
-                skv_maxf(light.of[SKV_OZONE].v[l], 0.0f) +
-                skv_maxf(leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.of[SKV_OZONE].v[l], 0.0f);
+                light.of[SKV_OZONE].v[l] + (leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.of[SKV_OZONE].v[l]);
     }
 #endif
 }
@@ -176,7 +175,7 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
         SKV_EACH_LANE(l) {
             const float g = grown.v[l], s = l_km.v[l] * (g - 1.0f);
             q.ds.v[l] = w * k.v[l] * l_km.v[l] * g;
-            q.e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            q.e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), frame->limits.zero);
             q.rm.v[l] = rm.v[l] + s;
             q.rms.v[l] = rms.v[l] + s * leg->nu.v[l];
         }

