@@ -72,7 +72,7 @@ SKV_INLINE float skv_exp2f_inner(float x) {
 }
 
 /// e^x; 0 below -87.33, 2^127 above 88.02, NaN gives 0. The product x log2(e) is formed in two parts.
-/// Error: rel 1.15e-7 on [-87.33, 88.02], worst at -0x1.1966b8p+6
+/// Error: rel 1.2e-7 on [-87.33, 88.02], worst at -0x1.1966b8p+6
 SKV_INLINE float skv_expf(float x) {
     // n from the rounded product, the rest from x itself: ln 2 = hi + lo, n*hi exact.
     const float v = skv_clampf(x, -87.33f, 88.02f);

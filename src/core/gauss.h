@@ -190,13 +190,15 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
             leg->out[l][b] = skv_minf(leg->out[l][b] + radiance[b].v[l] * irradiance[b], SKV_RADIANCE_MAX);
 }
 
-/// Whether any sample of any leg may see the light below its horizontal: r mu_s is linear along a leg.
+/// Whether any sample of any leg may see the light below its horizontal: r mu_s is linear along a leg. Signs are
+/// gathered as bits: such a reduction is vectorised.
 SKV_INLINE unsigned skv_legs_down(const skv_legs *leg) {
-    float lowest = 0.0f;
-    for (int l = 0; l < SKV_LANES; l++)
-        lowest = skv_minf(lowest, skv_minf(leg->rms.v[l] + leg->a.v[l] * leg->nu.v[l],
-                                           leg->rms.v[l] + leg->b.v[l] * leg->nu.v[l]));
-    return lowest < 0.0f ? (unsigned)SKV_HAS_DOWN : 0u;
+    uint32_t signs = 0;
+    SKV_EACH_LANE(l) {
+        const float rms = leg->rms.v[l], nu = leg->nu.v[l];
+        signs |= skv_bits(rms + leg->a.v[l] * nu) | skv_bits(rms + leg->b.v[l] * nu);
+    }
+    return (signs & 0x80000000u) != 0 ? (unsigned)SKV_HAS_DOWN : 0u;
 }
 
 /// The kernel, specialised for what most frames are.

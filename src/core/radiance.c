@@ -92,10 +92,9 @@ static void skv_queue_push(const skv_frame *frame, int light, const skv_legs *le
 }
 
 SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
-    int full = count == SKV_LANES;
-    for (int l = 0; l < count; l++)
-        full &= leg->b.v[l] > leg->a.v[l];
-    return full;
+    uint32_t signs = 0; // of a - b: all negative where every lane has something
+    SKV_EACH_LANE(l) signs |= ~skv_bits(leg->a.v[l] - leg->b.v[l]);
+    return count == SKV_LANES && (signs & 0x80000000u) == 0;
 }
 
 static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {

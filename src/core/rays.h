@@ -64,7 +64,7 @@ SKV_INLINE void skv_block_gather(size_t n, size_t first, const skv_rays *rays, s
 
 /// Unit view directions; a refused one becomes an empty ray to the zenith.
 SKV_INLINE void skv_block_directions(skv_block *b) {
-    float all = 1.0f;
+    uint32_t all = ~0u;
     SKV_EACH_LANE(l) {
         const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l], length = b->length_km.v[l];
         // The largest component first: squares of any float neither overflow nor vanish. x - x is 0 or NaN.
@@ -80,8 +80,8 @@ SKV_INLINE void skv_block_directions(skv_block *b) {
         b->length_km.v[l] = ok ? skv_minf(length, SKV_FAR_KM) : -1.0f;
         b->valid.v[l] = ok ? 1.0f : 0.0f;
     }
-    SKV_EACH_LANE(l) all = skv_minf(all, b->valid.v[l]);
-    b->bad = all < 1.0f;
+    SKV_EACH_LANE(l) all &= skv_bits(b->valid.v[l]);
+    b->bad = all != skv_bits(1.0f);
 }
 
 /// Where each ray enters the air: at the observer, or from above the top.
@@ -111,7 +111,7 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
 /// The legs of each ray.
 SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
     const float radius = frame->radius_km, top = frame->top_km;
-    float tangents = 0.0f;
+    uint32_t tangents = 0;
     SKV_EACH_LANE(l) {
         const float h = b->h_km.v[l], rm = b->rm.v[l], length = skv_maxf(b->length_km.v[l], 0.0f);
         const float c = h * (2.0f * radius + h), e = c - rm * rm;
@@ -130,10 +130,10 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
         // Refused, or past the air: nothing at all.
         b->leg[0].b.v[l] = b->length_km.v[l] > 0.0f ? (down ? from : up) : a;
         b->meets_ground.v[l] = (hit & (length >= from)) != 0 ? 1.0f : 0.0f;
-        b->leg[1].b.v[l] = miss ? length - from : 0.0f;
+        b->leg[1].b.v[l] = miss ? skv_maxf(length - from, 0.0f) : 0.0f;
     }
-    SKV_EACH_LANE(l) tangents = skv_maxf(tangents, b->leg[1].b.v[l]);
-    b->parts = tangents > 0.0f ? 2 : 1;
+    SKV_EACH_LANE(l) tangents |= skv_bits(b->leg[1].b.v[l]);
+    b->parts = tangents != 0 ? 2 : 1;
     if (b->parts == 1)
         return;
     SKV_EACH_LANE(l) {
@@ -143,7 +143,7 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
         b->leg[1].from_km.v[l] = b->leg[0].from_km.v[l];
         b->leg[1].dir.v[l] = 1.0f;
         b->leg[1].a.v[l] = 0.0f;
-        b->leg[1].b.v[l] = skv_minf(skv_to_top(radius, top, ht, 0.0f), skv_maxf(b->leg[1].b.v[l], 0.0f));
+        b->leg[1].b.v[l] = skv_minf(skv_to_top(radius, top, ht, 0.0f), b->leg[1].b.v[l]);
     }
 }
 

@@ -14,12 +14,11 @@
 SKV_INLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part, const skv_block_light *light,
                               const skv_lanes *rms, const skv_lanes *nu, skv_lanes *from, skv_lanes *to) {
     const float radius = frame->radius_km, r0 = radius + frame->height_km;
-    float lowest = 0.0f;
+    uint32_t signs = 0, any = 0;
     SKV_EACH_LANE(l)
-        lowest = skv_minf(lowest, skv_minf(rms->v[l], rms->v[l] + block->leg[part].b.v[l] * nu->v[l]));
-    if (!(lowest < 0.0f))
+        signs |= skv_bits(rms->v[l]) | skv_bits(rms->v[l] + block->leg[part].b.v[l] * nu->v[l]);
+    if ((signs & 0x80000000u) == 0)
         return 0;
-    float any = 0.0f;
     SKV_EACH_LANE(l) {
         const float h = block->leg[part].h_km.v[l], begin = block->leg[part].a.v[l], end = block->leg[part].b.v[l];
         const float a = light->cross2.v[l];
@@ -34,8 +33,8 @@ SKV_INLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, in
         from->v[l] = dark ? lo : end;
         to->v[l] = dark ? hi : end;
     }
-    SKV_EACH_LANE(l) any = skv_maxf(any, to->v[l] - from->v[l]);
-    return any > 0.0f;
+    SKV_EACH_LANE(l) any |= skv_bits(to->v[l]) ^ skv_bits(from->v[l]);
+    return any != 0;
 }
 
 #endif

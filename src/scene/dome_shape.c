@@ -74,7 +74,7 @@ static float azimuth_of(const skv_vec3 *sun, float u) {
 /// denominator and a weight make that smooth.
 static skv_pull shadow_pull(const skv_dome_shape *shape, float along) {
     const skv_dome *const dome = shape->dome;
-    const float height = 0.12f * dome->top_km; // where the light bends most in the skies of tests/api/test_dome.c
+    const float height = 0.12f * dome->top_km; // where the light bends most: tests/api/test_dome_sky.c
     const float radius = dome->radius_km + height;
     const float s = skv_sqrtf(height * (2.0f * dome->radius_km + height)) / radius;
     const float a2 = along * along, epsilon = 0.0025f;
