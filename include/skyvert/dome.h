@@ -19,12 +19,11 @@ extern "C" {
 typedef enum skv_dome_kind {
     SKV_DOME_EVEN = 0,    ///< rings evenly spaced in elevation, columns in azimuth
     SKV_DOME_HORIZON = 1, ///< ring elevations from the horizon ~ t^3 (dense at the horizon), mirrored below it
-    SKV_DOME_ADAPTIVE =
-        2, ///< as HORIZON, with the columns drawn together around the sun's azimuth (twice as dense there)
-           ///< and the rings, column by column, around the sun's elevation and, with the sun low, along
-           ///< the edge of the planet's shadow. Vertices move continuously with the sun, through the
-           ///< zenith and the horizon too: nothing pops. Next to the sun the interpolated sky is about
-           ///< 40 % nearer to the true one than HORIZON's by day; elsewhere the two are alike.
+    /// As HORIZON, with the columns drawn together around the sun's azimuth (twice as dense there) and the rings,
+    /// column by column, around the sun's elevation and, with the sun low, along the edge of the planet's shadow.
+    /// Vertices move continuously with the sun, through the zenith and the horizon too: nothing pops. Next to the sun
+    /// the sky between vertices is a third nearer to the true one than HORIZON's; over the whole sky the two are alike.
+    SKV_DOME_ADAPTIVE = 2,
 } skv_dome_kind;
 
 typedef struct skv_dome {

@@ -67,7 +67,7 @@ static float skv_column_base(const skv_species *species, float radius, float h, 
         return t;
     const float scale = species->scale_height_km, k = 1.0f / skv_sqrtf(2.0f * scale);
     const float r = radius + h, root = skv_sqrtf(r), sin_chi = skv_sqrtf(1.0f - mu * mu);
-    return scale * 1.77245385f * k * root * skv_exp2f(-h * species->inv_scale_log2e) *
+    return scale * 1.77245385f * k * root * skv_exp2f(skv_maxf(-h * species->inv_scale_log2e, -120.0f)) *
            skv_chapman(SKV_ERFCX_C * k * root, 0.375f * scale, mu, sin_chi, skv_power8(sin_chi) / r);
 }
 

@@ -90,8 +90,9 @@
 #define SKV_ATAN_2 -0.138778776f
 #define SKV_ATAN_3 0.0805428475f
 
-#define SKV_ERFCX4_T 0.563f // c of t = 1/(1 + c y)
-#define SKV_ERFCX6_T 0.395f // c of t = 1/(1 + c y)
-#define SKV_ERFCX8_T 0.4f // c of t = 1/(1 + c y)
+// c of t = 1/(1 + c y).
+#define SKV_ERFCX4_T 0.563f
+#define SKV_ERFCX6_T 0.395f
+#define SKV_ERFCX8_T 0.4f
 
 #endif

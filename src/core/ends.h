@@ -5,7 +5,7 @@
 #include "core/rays.h"
 
 /// Columns from the observer to the end of the ray.
-SKV_INLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block, const skv_columns k[2],
+static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block, const skv_columns k[2],
                                 skv_columns *out) {
     const float radius = frame->radius_km;
     skv_points p;
@@ -51,7 +51,7 @@ SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, c
 
 #if SKV_TERM_GROUND
 /// Lambert's ground lit by one light: albedo/pi E mu_s T_light T_view.
-SKV_INLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, size_t first, const skv_block *block,
+static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, size_t first, const skv_block *block,
                                const skv_columns *view, const skv_sky *sky) {
     const skv_model *model = frame->model;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
@@ -82,9 +82,8 @@ SKV_INLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, 
 #endif
 
 /// @return whether any ray was refused.
-static int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
+static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
-    const size_t bands = (size_t)SKV_BANDS_OF(has);
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
     if (!ground && !sky->transmittance && frame->lights > 0)
@@ -102,6 +101,7 @@ static int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, cons
 #endif
 #if SKV_OUT_TRANSMITTANCE
         for (int l = 0; sky->transmittance && l < block.count; l++) {
+            const size_t bands = (size_t)SKV_BANDS_OF(has);
             float *out = skv_at_mutable(sky->transmittance, sky->transmittance_stride, bands, first + (size_t)l);
             for (size_t b = 0; b < bands; b++)
                 out[b] = block.valid.v[l] *

@@ -21,13 +21,13 @@ typedef struct skv_legs {
 
 /// 1/l: the slope of the ray over the altitude scale Hs, more where the air is dense.
 SKV_INLINE float skv_map_inverse(float hs, float mu, float inv_r, float extinction_per_km) {
-    return (0.5f * mu + skv_root(0.25f * mu * mu + 0.5f * hs * inv_r)) / hs + 0.15f * extinction_per_km;
+    return (0.5f * mu + skv_root(0.25f * mu * mu + 0.5f * hs * inv_r)) / hs + 0.19f * extinction_per_km;
 }
 
 /// Hs against the sine of the light's elevation, of one unit of the frame's scale: smooth, so that nothing pops.
 SKV_INLINE float skv_map_scale(float mu_s) {
     const float x = skv_clampf((0.2f - mu_s) * 2.5f, 0.0f, 1.0f);
-    return 6.0f + 6.0f * x * x * (3.0f - 2.0f * x);
+    return 6.0f + 8.0f * x * x * (3.0f - 2.0f * x);
 }
 
 /// Moves the origin of each leg to the start of its lit range.
@@ -70,14 +70,16 @@ typedef struct skv_samples {
     skv_lanes rm, rms;  ///< r mu along the leg, r mu_s
     skv_points p;
     skv_columns c;      ///< light -> sample -> observer
+#if SKV_TERM_OZONE
+    skv_lanes mu_view, mu_light, tangent_km;
+#endif
 } skv_samples;
 
-/// Columns of two exponentials in closed form (and ozone from its table), all in one pass.
+/// Columns of two exponentials in closed form, in one pass.
 SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
     const skv_frame_limits *limits = &frame->limits;
     const float radius = frame->radius_km, radius2 = radius * radius, top = frame->top_km;
     const float rt = radius + top, inv_rt2 = 1.0f / (rt * rt);
-    skv_lanes mu_view, mu_light, h_tangent;
     SKV_EACH_LANE(l) {
         const float e = q->e.v[l], rms = q->rms.v[l];
         const float r = skv_root(radius2 + e), h = skv_minf(e / (radius + r), top);
@@ -112,28 +114,36 @@ SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const s
             q->c.of[s].v[l] = light + (leg->k.of[s].v[l] + leg->sigma.v[l] * view);
         }
         q->p.h_km.v[l] = h;
-        mu_view.v[l] = mv;
-        mu_light.v[l] = ml;
-        h_tangent.v[l] = tangent_h;
-    }
 #if SKV_TERM_OZONE
-    if (SKV_PRESENT(has, SKV_OZONE)) {
-        skv_columns view, light, both;
-        skv_columns_tables_up(frame, SKV_HAS_OZONE, &q->p.h_km, &mu_view, &view);
-        skv_columns_tables_up(frame, SKV_HAS_OZONE, &q->p.h_km, &mu_light, &light);
-        if ((has & SKV_HAS_DOWN) != 0) {
-            skv_columns_tables_tangent(frame, SKV_HAS_OZONE, &h_tangent, &both);
-            SKV_EACH_LANE(l) {
-                const float up = light.of[SKV_OZONE].v[l], down = both.of[SKV_OZONE].v[l] - up;
-                light.of[SKV_OZONE].v[l] = q->rms.v[l] < 0.0f ? down : up;
-            }
-        }
-        SKV_EACH_LANE(l)
-            q->c.of[SKV_OZONE].v[l] =
-                light.of[SKV_OZONE].v[l] + (leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.of[SKV_OZONE].v[l]);
-    }
+        q->mu_view.v[l] = mv;
+        q->mu_light.v[l] = ml;
+        q->tangent_km.v[l] = tangent_h;
 #endif
+    }
 }
+
+#if SKV_TERM_OZONE
+/// Ozone's columns from its table.
+static SKV_NOINLINE void skv_samples_ozone(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
+    skv_lanes t, view, light;
+    const skv_column_table *table = &frame->model->ozone_column;
+    SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * q->mu_view.v[l]);
+    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &view);
+    SKV_EACH_LANE(l) view.v[l] *= t.v[l];
+    SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * q->mu_light.v[l]);
+    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &light);
+    SKV_EACH_LANE(l) light.v[l] *= t.v[l];
+    if ((has & SKV_HAS_DOWN) != 0) {
+        skv_lookup_tangent(frame, table, 0, &q->tangent_km, &t);
+        SKV_EACH_LANE(l) {
+            const float down = 2.0f * t.v[l] - light.v[l];
+            light.v[l] = q->rms.v[l] < 0.0f ? down : light.v[l];
+        }
+    }
+    SKV_EACH_LANE(l)
+        q->c.of[SKV_OZONE].v[l] = light.v[l] + (leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.v[l]);
+}
+#endif
 
 /// Columns of any profiles by any backend.
 SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
@@ -163,6 +173,7 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
     skv_legs_map(frame, has, leg, &q.p, &rm, &rms, &l_km, &k, &whole);
     for (int b = 0; b < bands; b++)
         SKV_EACH_LANE(l) radiance[b].v[l] = 0.0f;
+    SKV_EACH_LANE(l) grown.v[l] = 1.0f;
 
     // Nodes come in pairs u, 1-u: exp(k(1-u)) = exp(k)/exp(k u) saves every second exponential.
     for (int i = 0; i < n; i++) {
@@ -183,6 +194,10 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
             skv_samples_general(frame, has, leg, &q);
         else
             skv_samples_closed(frame, has, leg, &q);
+#if SKV_TERM_OZONE
+        if ((has & SKV_HAS_GENERAL) == 0 && SKV_PRESENT(has, SKV_OZONE))
+            skv_samples_ozone(frame, has, leg, &q);
+#endif
         skv_scatter(frame, has, &q.p, leg->phase, &q.ds, &q.c, radiance);
     }
     for (int l = 0; l < count; l++)
@@ -201,29 +216,57 @@ SKV_INLINE unsigned skv_legs_down(const skv_legs *leg) {
     return (signs & 0x80000000u) != 0 ? (unsigned)SKV_HAS_DOWN : 0u;
 }
 
-/// The kernel, specialised for what most frames are.
-static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
-    const unsigned has = frame->has | skv_legs_down(leg);
 #if SKV_SPECIALISE
-    enum { TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT, ALL = TWO | SKV_HAS_OZONE | SKV_HAS_FOUR };
-#if SKV_BANDS != 4
-    if (has == (unsigned)TWO) {
-        skv_gauss_kernel(frame, TWO, leg, count, irradiance);
-        return;
+/// The kernel for what most frames are; functions of their own, so that their stacks do not add up.
+enum { SKV_HAS_TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT, SKV_HAS_ALL = SKV_HAS_TWO | SKV_HAS_OZONE };
+
+#define SKV_GAUSS_KERNEL(name, bits)                                                                                   \
+    static SKV_NOINLINE void name(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) { \
+        skv_gauss_kernel(frame, (unsigned)(bits), leg, count, irradiance);                                             \
     }
+#if SKV_BANDS != 4
+SKV_GAUSS_KERNEL(skv_gauss_two_3, SKV_HAS_TWO)
+#if SKV_TERM_OZONE
+SKV_GAUSS_KERNEL(skv_gauss_all_3, SKV_HAS_ALL)
+#endif
 #endif
 #if SKV_TERM_OZONE && SKV_BANDS != 3
-    if (has == (unsigned)ALL) {
-        skv_gauss_kernel(frame, ALL, leg, count, irradiance);
-        return;
-    }
-    if (has == (unsigned)(ALL | SKV_HAS_DOWN)) {
-        skv_gauss_kernel(frame, ALL | SKV_HAS_DOWN, leg, count, irradiance);
-        return;
-    }
+SKV_GAUSS_KERNEL(skv_gauss_all_4, SKV_HAS_ALL | SKV_HAS_FOUR)
+SKV_GAUSS_KERNEL(skv_gauss_all_4_down, SKV_HAS_ALL | SKV_HAS_FOUR | SKV_HAS_DOWN)
 #endif
 #endif
+
+static SKV_NOINLINE void skv_gauss_any(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+                                       const float irradiance[4]) {
     skv_gauss_kernel(frame, has & SKV_HAS_BUILT, leg, count, irradiance);
+}
+
+static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
+    const unsigned has = frame->has | skv_legs_down(leg);
+    switch (has) {
+#if SKV_SPECIALISE
+#if SKV_BANDS != 4
+    case SKV_HAS_TWO:
+        skv_gauss_two_3(frame, leg, count, irradiance);
+        return;
+#if SKV_TERM_OZONE
+    case SKV_HAS_ALL:
+        skv_gauss_all_3(frame, leg, count, irradiance);
+        return;
+#endif
+#endif
+#if SKV_TERM_OZONE && SKV_BANDS != 3
+    case SKV_HAS_ALL | SKV_HAS_FOUR:
+        skv_gauss_all_4(frame, leg, count, irradiance);
+        return;
+    case SKV_HAS_ALL | SKV_HAS_FOUR | SKV_HAS_DOWN:
+        skv_gauss_all_4_down(frame, leg, count, irradiance);
+        return;
+#endif
+#endif
+    default:
+        skv_gauss_any(frame, has, leg, count, irradiance);
+    }
 }
 
 #endif

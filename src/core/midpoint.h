@@ -44,7 +44,7 @@ SKV_INLINE void skv_midpoint_columns(const skv_frame *frame, unsigned has, const
 #endif
 
 /// The whole ray from the start of the air to its end.
-SKV_INLINE void skv_midpoint_begin(const skv_frame *frame, unsigned has, int light, const skv_block *block,
+static SKV_NOINLINE void skv_midpoint_begin(const skv_frame *frame, unsigned has, int light, const skv_block *block,
                                    const skv_block_light *toward, skv_midpoint_ray *ray) {
     const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
     skv_columns k[2];
@@ -107,7 +107,7 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
     (void)ray;
 }
 
-SKV_INLINE void skv_midpoint_block(const skv_frame *frame, unsigned has, const skv_block *block,
+static SKV_NOINLINE void skv_midpoint_block(const skv_frame *frame, unsigned has, const skv_block *block,
                                    const skv_block_light *toward, const skv_midpoint_ray *ray, skv_lanes radiance[]) {
     const int n = frame->quality.samples, cube = frame->quality.rule == SKV_KELLER;
     const float radius = frame->radius_km, step = 1.0f / (float)n;
@@ -135,7 +135,7 @@ SKV_INLINE void skv_midpoint_block(const skv_frame *frame, unsigned has, const s
 }
 
 /// @return whether any ray was refused.
-static int skv_rule_midpoint(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+static SKV_NOINLINE int skv_rule_midpoint(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
     int bad = 0;

@@ -105,9 +105,10 @@ static skv_status skv_check(const skv_atmosphere *a) {
 /// Parameters of a density, and which form its column takes.
 static void skv_species_init(skv_species *sp, const skv_profile *p, int species, float top_km) {
     const float log2e = 1.44269504f;
-    sp->kind = p->kind;
+    sp->kind = (int32_t)p->kind;
     sp->column = species == SKV_OZONE ? 2 : p->kind <= SKV_PROFILE_EXP_BACKGROUND ? 0 : 1;
-    sp->scale_height_km = p->kind <= SKV_PROFILE_EXP_BACKGROUND ? p->scale_height_km : 1.0f;
+    const int exponential = p->kind == SKV_PROFILE_EXPONENTIAL || p->kind == SKV_PROFILE_EXP_BACKGROUND;
+    sp->scale_height_km = exponential ? p->scale_height_km : 1.0f;
     sp->inv_scale_log2e = log2e / sp->scale_height_km;
     if (p->kind == SKV_PROFILE_EXP_BACKGROUND)
         sp->background = p->background;
@@ -124,7 +125,7 @@ static void skv_species_init(skv_species *sp, const skv_profile *p, int species,
         sp->p2 = (p->lognormal_mu - 0.25f / p->lognormal_k) * log2e;
     }
 #if SKV_PROFILE_TABULATED
-    if (sp->column == 1) {
+    if (sp->column == 1 && p->kind != SKV_PROFILE_NONE) {
         sp->scale_height_km = skv_profile_centroid_km(p, sp, top_km);
         sp->inv_scale_log2e = log2e / sp->scale_height_km;
     }

@@ -2,6 +2,8 @@
 #ifndef SKV_CORE_PROFILE_H
 #define SKV_CORE_PROFILE_H
 
+#include <stddef.h>
+
 #include "core/lanes.h"
 
 /// Density of the kinds that are formulas, at altitude h_km above the sea; TABLE excepted. Parameters: profile.c.

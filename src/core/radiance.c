@@ -97,7 +97,7 @@ SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
     return count == SKV_LANES && (signs & 0x80000000u) == 0;
 }
 
-static int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
     skv_queue queue;

@@ -71,8 +71,9 @@ SKV_INLINE void skv_block_directions(skv_block *b) {
         const float m = skv_maxf(skv_maxf(skv_fabsf(x), skv_fabsf(y)), skv_fabsf(z));
         const float zero = (x - x) + (y - y) + (z - z);
         const int ok = (zero == 0.0f) & (m >= 1.17549435e-38f) & (length >= 0.0f);
-        const float inv = 1.0f / (ok ? m : 1.0f);
-        const float sx = ok ? x * inv : 0.0f, sy = ok ? y * inv : 0.0f, sz = ok ? z * inv : 1.0f;
+        // In two steps: 1/m of a huge m is subnormal, and a host may flush that to 0.
+        const float huge = m > 1e30f ? 1e-30f : 1.0f, inv = 1.0f / (ok ? m * huge : 1.0f);
+        const float sx = ok ? x * huge * inv : 0.0f, sy = ok ? y * huge * inv : 0.0f, sz = ok ? z * huge * inv : 1.0f;
         const float norm = 1.0f / skv_root(sx * sx + sy * sy + sz * sz);
         b->view[0].v[l] = sx * norm;
         b->view[1].v[l] = sy * norm;
@@ -98,9 +99,13 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
         return;
     const float c = (h - top) * (2.0f * radius + h + top), rt = radius + top;
     SKV_EACH_LANE(l) {
-        const float root = skv_root(skv_maxf((rt - b->p_km.v[l]) * (rt + b->p_km.v[l]), 0.0f));
-        const int enters = (b->rm.v[l] < 0.0f) & (b->p_km.v[l] < rt);
-        const float entry = c / (skv_fabsf(b->rm.v[l]) + root);
+        // (r_top mu)^2 at the entry, by the form that cancels less.
+        const float rm = b->rm.v[l], p = b->p_km.v[l];
+        const float steep = (rt - p) * (rt + p), flat = rm * rm - c;
+        const float root = skv_root(skv_maxf(skv_fabsf(rm) < p ? flat : steep, 0.0f));
+        const int enters = (rm < 0.0f) & (p < rt) & (root > 0.0f);
+        const float entry = c / skv_maxf(skv_fabsf(rm) + root, 1e-30f);
+        b->p_km.v[l] = enters ? p : rt;
         b->h_km.v[l] = top;
         b->rm.v[l] = enters ? -root : 0.0f;
         b->start_km.v[l] = enters ? entry : 0.0f;
@@ -137,17 +142,19 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
     if (b->parts == 1)
         return;
     SKV_EACH_LANE(l) {
-        const float ht = b->leg[0].h_km.v[l];
-        b->leg[1].h_km.v[l] = ht;
+        // From the tangent point to the top, without the digits that its altitude loses near the top.
+        const float h = b->h_km.v[l], rm = b->rm.v[l];
+        const float out = skv_root(skv_maxf(top - h, 0.0f) * (2.0f * radius + top + h) + rm * rm);
+        b->leg[1].h_km.v[l] = b->leg[0].h_km.v[l];
         b->leg[1].rm.v[l] = 0.0f;
         b->leg[1].from_km.v[l] = b->leg[0].from_km.v[l];
         b->leg[1].dir.v[l] = 1.0f;
         b->leg[1].a.v[l] = 0.0f;
-        b->leg[1].b.v[l] = skv_minf(skv_to_top(radius, top, ht, 0.0f), b->leg[1].b.v[l]);
+        b->leg[1].b.v[l] = skv_minf(out, b->leg[1].b.v[l]);
     }
 }
 
-SKV_INLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays, skv_block *b) {
+static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays, skv_block *b) {
     skv_block_gather(n, first, rays, b);
     skv_block_directions(b);
     skv_block_start(frame, b);
@@ -156,7 +163,8 @@ SKV_INLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, c
 
 /// Constants K of the view columns K + sigma col(P): up col(O), towards the observer -col(O), past the tangent point
 /// 2 col(T) - col(O), each column taken upward from the start of the air.
-SKV_INLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b, skv_columns k[2]) {
+static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b,
+                                           skv_columns k[2]) {
     skv_points o;
     skv_lanes mu, sin_chi;
     skv_points_above(frame, has, &b->h_km, &o);
@@ -187,7 +195,7 @@ typedef struct skv_block_light {
     skv_lanes phase[2]; ///< Rayleigh, aerosol
 } skv_block_light;
 
-SKV_INLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b, skv_block_light *out) {
+static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b, skv_block_light *out) {
     const float *s = frame->light[light].direction_enu;
     const float g = frame->model->aerosol_g, sz = s[2];
     skv_lanes d;

@@ -11,7 +11,7 @@
 /// @param[in]  rms, nu  of the leg: r mu_s at its origin, cos(its direction, light).
 /// @param[out] from, to the dark stretch within [a, b]; from >= to where there is none.
 /// @return whether any lane has one.
-SKV_INLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part, const skv_block_light *light,
+static SKV_NOINLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part, const skv_block_light *light,
                               const skv_lanes *rms, const skv_lanes *nu, skv_lanes *from, skv_lanes *to) {
     const float radius = frame->radius_km, r0 = radius + frame->height_km;
     uint32_t signs = 0, any = 0;

@@ -17,9 +17,9 @@ static skv_status check_arrays(size_t n, const float *rgb, size_t rgb_stride, co
     return SKV_OK;
 }
 
-/// `count` vertices from index i on into a packed block.
-static void read_block(float block[3 * BLOCK], const float *rgb, size_t stride, size_t i, size_t count) {
-    for (size_t v = 0; v < count; v++) {
+/// Vertices from index i on, of n, into a packed block.
+static void read_block(float block[3 * BLOCK], const float *rgb, size_t stride, size_t i, size_t n) {
+    for (size_t v = 0; v < BLOCK && i + v < n; v++) {
         const float *const p = skv_const_at(rgb, stride, i + v);
         for (size_t c = 0; c < 3; c++)
             block[3 * v + c] = p[c];
@@ -36,11 +36,10 @@ skv_status skv_expose(float k, size_t n, const float *rgb, size_t rgb_stride, fl
     const float scale = k * 1.44269504f; // 1 - e^-kL = 1 - 2^-(kL log2 e)
     float block[3 * BLOCK] = {0};
     for (size_t i = 0; i < n; i += BLOCK) {
-        const size_t count = n - i < BLOCK ? n - i : BLOCK;
-        read_block(block, rgb, from, i, count);
+        read_block(block, rgb, from, i, n);
         for (int c = 0; c < 3 * BLOCK; c++)
             block[c] = skv_one_minus_exp2f(scale * skv_clampf(block[c], 0.0f, FLT_MAX));
-        for (size_t v = 0; v < count; v++)
+        for (size_t v = 0; v < BLOCK && i + v < n; v++)
             for (size_t c = 0; c < 3; c++)
                 skv_at(out, to, i + v)[c] = block[3 * v + c];
     }

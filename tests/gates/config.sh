@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# What config.h leaves out costs no bytes and no instructions: the core is built for Cortex-M4F (-Os) with each macro at 0,
+# and a vertex is counted with the thing left out and with it there but switched off at run time. Each selection must
+# also compile without a warning with gcc and clang for the host.
+. "$(dirname "$0")/lib.sh"
+. "$(dirname "$0")/counts.sh"
+for tool in arm-none-eabi-gcc qemu-system-arm clang; do
+    have $tool || { echo "config: no $tool (packages gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang)"; exit 77; }
+done
+# name, macros. The names of single macros are those of count.c's cases.
+selections() {
+    cat <<'LIST'
+all
+SKV_BANDS=3 -DSKV_BANDS=3
+SKV_BANDS=4 -DSKV_BANDS=4
+SKV_RULE_UNIFORM=0 -DSKV_RULE_UNIFORM=0
+SKV_RULE_KELLER=0 -DSKV_RULE_KELLER=0
+SKV_RULE_GAUSS_EXP=0 -DSKV_RULE_GAUSS_EXP=0
+SKV_DEPTH_CHAPMAN=0 -DSKV_DEPTH_CHAPMAN=0
+SKV_DEPTH_INNER=0 -DSKV_DEPTH_INNER=0
+SKV_TERM_RAYLEIGH=0 -DSKV_TERM_RAYLEIGH=0
+SKV_TERM_AEROSOL=0 -DSKV_TERM_AEROSOL=0
+SKV_TERM_OZONE=0 -DSKV_TERM_OZONE=0
+SKV_TERM_GROUND=0 -DSKV_TERM_GROUND=0
+SKV_OUT_TRANSMITTANCE=0 -DSKV_OUT_TRANSMITTANCE=0
+SKV_PHASE_HENYEY_GREENSTEIN=0 -DSKV_PHASE_HENYEY_GREENSTEIN=0
+SKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PHASE_CORNETTE_SHANKS=0
+SKV_PROFILE_TABULATED=0 -DSKV_PROFILE_TABULATED=0
+smallest-gauss-exp -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
+smallest-keller -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_GAUSS_EXP=0 -DSKV_DEPTH_CHAPMAN=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
+rayleigh-only -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_TERM_AEROSOL=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
+LIST
+}
+WARN="-Wall -Wextra -Wpedantic -Werror -Wconversion -Wdouble-promotion -Wfloat-conversion -Wshadow -Wstrict-prototypes -Wundef"
+# build NAME FLAG...: core objects, counting program and their text bytes in $G/config/NAME; nothing where they are new.
+build() {
+    local dir=$G/config/$1 f objects=()
+    shift
+    if [ -f "$dir/bytes" ] && [ -z "$(find src/core include port/cortexm tests/gates -newer "$dir/bytes" -name '*.[ch]' -print -quit)" ]; then return 0; fi
+    rm -rf "$dir"
+    mkdir -p "$dir"
+    for f in src/core/*.c; do
+        clang -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
+        gcc -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
+        arm-none-eabi-gcc -std=c99 -Os -ffunction-sections $ARM $FP $WARN -Wno-type-limits "$@" -Iinclude -Isrc -c "$f" -o "$dir/$(basename "$f" .c).o" || return 1
+        objects+=("$dir/$(basename "$f" .c).o")
+    done
+    arm-none-eabi-gcc -std=c99 -Os $ARM $FP "$@" -Iinclude -Iport/cortexm tests/gates/count.c "${objects[@]}" port/cortexm/{start,semihosting,newlib}.c \
+        -nostartfiles -Wl,-T,port/cortexm/cortexm.ld -Wl,--gc-sections -Wl,--no-warn-rwx-segments -o "$dir/count.elf" || return 1
+    arm-none-eabi-size "${objects[@]}" | awk 'NR > 1 { sum += $1 } END { print sum }' >"$dir/bytes"
+}
+export -f build
+export G FP WARN ARM
+quiet_make "$B/cortexm/libcount.so"
+selections | xargs -P "$(nproc)" -I{} bash -c 'build {} || echo "config: {}: does not build" >&2' 2>"$G/config.log"
+[ -s "$G/config.log" ] && { head -n 30 "$G/config.log"; exit 1; }
+
+count_m4f "$G/config/all/count.elf" "$G/config/all/counts" || fail "config: counting failed"
+all=$(cat "$G/config/all/bytes")
+[ "$(grep -c '^off:' "$G/config/all/counts")" -ge 15 ] || fail "config: the full build answers too few cases"
+# judge NAME BYTES LEFT-OUT SWITCHED-OFF: fewer bytes, no more instructions.
+judge() {
+    [ "$2" -lt "$all" ] || { echo "config: $1: $2 bytes, not below the $all of everything"; return 1; }
+    [ -n "$3" ] || { echo "config: $1: its case was not answered"; return 1; }
+    [ "$3" -le "$4" ] || { echo "config: $1: $3 instructions per vertex, $4 when switched off at run time"; return 1; }
+}
+echo "figure: core for Cortex-M4F -Os, everything: $all bytes of flash"
+while read -r name flags; do
+    bytes=$(cat "$G/config/$name/bytes")
+    case $name in
+    all) ;;
+    SKV_*)
+        count_m4f "$G/config/$name/count.elf" "$G/config/$name/counts" || fail "config: $name: counting failed"
+        out=$(awk -v c="off:$name" '$1 == c { print $2 }' "$G/config/$name/counts")
+        off=$(awk -v c="off:$name" '$1 == c { print $2 }' "$G/config/all/counts")
+        judge "$name" "$bytes" "$out" "$off" || failed=1
+        printf 'figure: %-32s %6d bytes (-%d), %5d instructions/vertex, %5d when switched off at run time\n' "$name" "$bytes" $((all - bytes)) "$out" "$off"
+        ;;
+    *) printf 'figure: %-32s %6d bytes (%s)\n' "$name" "$bytes" "${flags//-DSKV_/}" ;;
+    esac
+done < <(selections)
+# Samples that must fail: as many bytes, more instructions.
+must_fail "a selection as large as everything" judge sample "$all" 1 1
+must_fail "a selection that costs instructions" judge sample 1 101 100
+must_fail "an unknown number of bands" gcc -fsyntax-only -Iinclude -DSKV_BANDS=5 -x c include/skyvert/config.h
+must_fail "no rule at all" gcc -fsyntax-only -Iinclude -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_RULE_GAUSS_EXP=0 -x c include/skyvert/config.h
+[ $failed -eq 0 ]

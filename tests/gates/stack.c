@@ -1,0 +1,149 @@
+/// Stack that each public call really uses: the unused stack is painted first. Prints `function case bytes`.
+#if !defined(__arm__)
+#define _GNU_SOURCE // NOLINT: ucontext
+#endif
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "skyvert/skyvert.h"
+
+enum { PAINT = 0xA5, STACK = 12 * 1024 };
+static unsigned char stack[STACK] __attribute__((aligned(64)));
+
+#if defined(__arm__)
+/// Calls run() with the stack pointer at `top`.
+__attribute__((naked, noinline)) static void run_on(void (*run)(void), void *top) {
+    (void)run, (void)top;
+    __asm volatile("push {r4, lr}\n\t"
+                   "mov r4, sp\n\t"
+                   "mov sp, r1\n\t"
+                   "blx r0\n\t"
+                   "mov sp, r4\n\t"
+                   "pop {r4, pc}");
+}
+#else
+#include <ucontext.h>
+static void run_on(void (*run)(void), void *top) {
+    static ucontext_t here, there;
+    (void)top;
+    getcontext(&there);
+    there.uc_stack.ss_sp = stack;
+    there.uc_stack.ss_size = sizeof stack;
+    there.uc_link = &here;
+    makecontext(&there, run, 0);
+    swapcontext(&here, &there);
+}
+#endif
+
+/// Bytes below the top of a painted stack of its own.
+static size_t used_by(void (*run)(void)) {
+    memset(stack, PAINT, sizeof stack);
+    run_on(run, stack + sizeof stack);
+    size_t i = 0;
+    while (i < sizeof stack && stack[i] == PAINT)
+        ++i;
+    return sizeof stack - i;
+}
+
+enum { RAYS = 70 };
+static skv_atmosphere air;
+static skv_model model;
+static skv_frame frame;
+static skv_quality quality;
+static skv_light light[2];
+static float direction[RAYS][3], radiance[RAYS][4], transmittance[RAYS][4], rgb[RAYS][3];
+static float length_km[RAYS];
+static skv_status status;
+
+static void do_nothing(void) {}
+static void do_model(void) {
+    status = skv_model_build(&model, &air);
+}
+static void do_frame(void) {
+    status = skv_frame_begin(&frame, &model, &quality, 1.0f, 0.1f, light, SKV_LIGHTS_MAX > 1 ? 2 : 1);
+}
+static void do_radiance(void) {
+    const skv_rays rays = {direction[0], 0, length_km, 0};
+    const skv_sky sky = {radiance[0], sizeof *radiance, transmittance[0], sizeof *transmittance};
+    status = skv_radiance(&frame, RAYS, &rays, &sky);
+}
+static void do_colour(void) {
+    skv_colour_matrix matrix;
+    status = skv_colour_matrix_fitted(&matrix, model.bands, model.wavelength_nm);
+    if (status == SKV_OK)
+        status = skv_colour(&matrix, model.bands, RAYS, radiance[0], sizeof *radiance, rgb[0], 0, NULL, 0);
+}
+static void do_sun(void) {
+    const skv_utc utc = {8000, 1000.0f};
+    const skv_position position = {47.0f, 8.0f, 0.5f};
+    skv_sun sun;
+    status = skv_sun_at(&sun, &utc, &position);
+}
+static void do_moon(void) {
+    const skv_utc utc = {8000, 1000.0f};
+    const skv_position position = {47.0f, 8.0f, 0.5f};
+    skv_moon moon;
+    status = skv_moon_at(&moon, &utc, &position);
+}
+static void do_expose(void) {
+    status = skv_expose(1.0f, RAYS, rgb[0], 0, rgb[0], 0);
+}
+static void do_pack(void) {
+    static uint32_t packed[2 * RAYS];
+    status = skv_pack(SKV_FORMAT_RGBA16F, RAYS, rgb[0], 0, packed, 0);
+}
+
+static void report(const char *function, const char *variant, void (*run)(void)) {
+    run(); // what the loader resolves at first use is not the library's
+    used_by(run);
+    const size_t none = used_by(do_nothing), used = used_by(run);
+    if (status == SKV_OK)
+        printf("%s %s %u\n", function, variant, (unsigned)(used > none ? used - none : 0));
+    else if (status != SKV_ERR_UNSUPPORTED)
+        printf("failed %s %s %d\n", function, variant, (int)status);
+}
+
+static void all_rules(void) {
+    static const char *const rule[3] = {"uniform", "keller", "gauss-exp"};
+    char text[48];
+    for (int i = 0; i < 6; ++i) {
+        quality = (skv_quality){(skv_rule)(i % 3), (skv_depth)(i / 3), 6, 6, SKV_WITH_ALL};
+        do_frame();
+        if (status != SKV_OK)
+            continue;
+        snprintf(text, sizeof text, "%s-%s-%d-bands", rule[i % 3], i / 3 == 0 ? "chapman" : "inner", (int)model.bands);
+        report("skv_radiance", text, do_radiance);
+    }
+}
+
+int main(void) {
+    for (int i = 0; i < RAYS; ++i) {
+        direction[i][0] = 1.0f;
+        direction[i][1] = (float)(i % 7) - 3.0f;
+        direction[i][2] = (float)(i % 11) * 0.5f - 1.0f;
+        length_km[i] = i % 3 == 0 ? 20.0f : 3.0e38f;
+    }
+    for (int bands = 3; bands <= 4; ++bands) {
+        status = skv_atmosphere_preset(&air, SKV_PRESET_EARTH_HAZY, bands);
+        if (status != SKV_OK)
+            continue;
+        air.rayleigh.kind = SKV_PROFILE_US76; // a tabulated column
+        air.rayleigh.us76_a = 0.07771971f;
+        air.rayleigh.us76_b = 1.16364243f;
+        report("skv_model_build", bands == 3 ? "3-bands" : "4-bands", do_model);
+        if (status != SKV_OK)
+            continue;
+        skv_light_sun(&light[0], &model, (const float[3]){0.7f, 0.1f, -0.05f}); // the shadow's edge is met
+        skv_light_sun(&light[1], &model, (const float[3]){-0.7f, 0.1f, 0.5f});
+        skv_quality_tier(&quality, SKV_TIER_STANDARD);
+        report("skv_frame_begin", bands == 3 ? "3-bands" : "4-bands", do_frame);
+        all_rules();
+        report("skv_colour", bands == 3 ? "3-bands" : "4-bands", do_colour);
+    }
+    report("skv_sun_at", "-", do_sun);
+    report("skv_moon_at", "-", do_moon);
+    report("skv_expose", "-", do_expose);
+    report("skv_pack", "rgba16f", do_pack);
+    return 0;
+}

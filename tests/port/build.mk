@@ -1,0 +1,2 @@
+# Tests of the ports: each folder adds its own.
+include $(sort $(wildcard tests/port/*/build.mk))

@@ -1,0 +1,165 @@
+/// Airs to test in, as the library gets them and as the reference sees the same floats; rays, frames and errors.
+#ifndef TESTS_PROPERTY_AIR_H
+#define TESTS_PROPERTY_AIR_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "convert.h"
+#include "skyvert/radiance.h"
+
+#define DEGREE 0.017453292519943295
+
+typedef struct air {
+    const char *name;
+    skv_atmosphere atmosphere;
+    skv_model model;
+    ref_file truth;
+    float ground_km;
+} air;
+
+static inline void must(skv_status status, const char *what) {
+    if (status != SKV_OK)
+        fail_msg("%s: status %d, wanted SKV_OK", what, (int)status);
+}
+
+static inline void fill(float to[4], double a, double b, double c, double d) {
+    to[0] = (float)a;
+    to[1] = (float)b;
+    to[2] = (float)c;
+    to[3] = (float)d;
+}
+
+/// An Earth without air. Nothing here comes from the library's presets.
+static inline skv_atmosphere air_none(int bands) {
+    skv_atmosphere a;
+    memset(&a, 0, sizeof a);
+    a.radius_km = 6360;
+    a.top_km = 60;
+    a.bands = bands;
+    fill(a.wavelength_nm, 440, 520, 600, 680);
+    fill(a.solar_irradiance, 1.9, 1.85, 1.75, 1.5);
+    fill(a.albedo, 0.1, 0.2, 0.3, 0.4);
+    fill(a.absorption_colour, 1, 1, 1, 1);
+    a.turbidity = 1;
+    return a;
+}
+
+/// [Bruneton17]'s demo: clear, with ozone.
+static inline skv_atmosphere air_clear(int bands) {
+    skv_atmosphere a = air_none(bands);
+    fill(a.rayleigh_scattering_per_km, 0.033100006, 0.0169677948, 0.00957268519, 0.00580233938);
+    a.rayleigh.kind = SKV_PROFILE_EXPONENTIAL;
+    a.rayleigh.scale_height_km = 8;
+    fill(a.aerosol_scattering_per_km, 0.003996, 0.003996, 0.003996, 0.003996);
+    fill(a.aerosol_extinction_per_km, 0.00444, 0.00444, 0.00444, 0.00444);
+    a.aerosol.kind = SKV_PROFILE_EXPONENTIAL;
+    a.aerosol.scale_height_km = 1.2f;
+    a.aerosol_phase = SKV_PHASE_CS;
+    a.aerosol_g = 0.8f;
+    fill(a.ozone_absorption_per_km, 8.501668e-05, 0.0011494986, 0.0026972106, 0.0006497166);
+    a.ozone.kind = SKV_PROFILE_TENT;
+    a.ozone.peak_km = 25;
+    a.ozone.half_width_km = 15;
+    return a;
+}
+
+/// [Bruneton16]: strong aerosol, no ozone.
+static inline skv_atmosphere air_hazy(int bands) {
+    skv_atmosphere a = air_clear(bands);
+    fill(a.rayleigh_scattering_per_km, 0.02900713, 0.01461732, 0.008156124, 0.004908462);
+    fill(a.aerosol_scattering_per_km, 0.05142882, 0.04499519, 0.04012802, 0.03630459);
+    fill(a.aerosol_extinction_per_km, 0.06428603, 0.05624398, 0.05016003, 0.04538074);
+    a.aerosol_g = 0.7f;
+    a.ozone.kind = SKV_PROFILE_NONE;
+    return a;
+}
+
+/// Profiles that are not exponential.
+static inline skv_atmosphere air_shaped(int bands) {
+    skv_atmosphere a = air_clear(bands);
+    a.rayleigh.kind = SKV_PROFILE_US76;
+    a.rayleigh.us76_a = .07771971f;
+    a.rayleigh.us76_b = 1.16364243f;
+    a.aerosol.kind = SKV_PROFILE_EXP_BACKGROUND;
+    a.aerosol.background = 2e-3f;
+    a.aerosol_phase = SKV_PHASE_HG;
+    a.aerosol_g = 0.76f;
+    a.ozone.kind = SKV_PROFILE_LOGNORMAL;
+    a.ozone.lognormal_mu = 3.22261f;
+    a.ozone.lognormal_k = 5.55555555f;
+    return a;
+}
+
+static inline void air_make(air *to, const char *name, skv_atmosphere atmosphere, float ground_km) {
+    to->name = name;
+    to->atmosphere = atmosphere;
+    to->ground_km = ground_km;
+    must(skv_model_build(&to->model, &to->atmosphere), name);
+    ref_from_skyvert(&to->atmosphere, (double)ground_km, &to->truth);
+}
+
+/// Zenith angle and azimuth from the sun's azimuth; the sun stands in the south.
+static inline void direction_of(float to[3], double zenith_deg, double azimuth_deg) {
+    to[0] = (float)(sin(zenith_deg * DEGREE) * sin(azimuth_deg * DEGREE));
+    to[1] = (float)(-sin(zenith_deg * DEGREE) * cos(azimuth_deg * DEGREE));
+    to[2] = (float)cos(zenith_deg * DEGREE);
+}
+
+static inline skv_quality quality_of(skv_rule rule, skv_depth depth, int samples, int depth_samples) {
+    const skv_quality q = {rule, depth, samples, depth_samples, SKV_WITH_ALL & ~(uint32_t)SKV_WITH_GROUND};
+    return q;
+}
+
+static inline void frame_of(skv_frame *frame, const air *a, const skv_quality *quality, float observer_km,
+                            const float sun[3]) {
+    skv_light light;
+    must(skv_light_sun(&light, &a->model, sun), "skv_light_sun");
+    must(skv_frame_begin(frame, &a->model, quality, observer_km, a->ground_km, &light, 1), "skv_frame_begin");
+}
+
+static inline void truth_of(const air *a, float observer_km, const float view[3], const float sun[3], double length_km,
+                            int lit_ground, ref_answer *answer) {
+    const double v[3] = {(double)view[0], (double)view[1], (double)view[2]};
+    const double s[3] = {(double)sun[0], (double)sun[1], (double)sun[2]};
+    ref_ray ray = ref_ray_from_vectors((double)observer_km - (double)a->ground_km, v, s);
+    ray.length_km = length_km;
+    if (ref_single(&a->truth.atmosphere, &ray, lit_ground, NULL, answer) != 0)
+        fail_msg("%s: reference did not converge: height %g, mu %g, mu_s %g", a->name, (double)observer_km, ray.mu,
+                 ray.mu_s);
+}
+
+static inline double largest_of(const double *x, int n) {
+    double largest = 0;
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, x[i]);
+    return largest;
+}
+
+static inline double halton(int i, int base) {
+    double f = 1, r = 0;
+    for (; i > 0; i /= base) {
+        f /= base;
+        r += f * (i % base);
+    }
+    return r;
+}
+
+/// xorshift64*: random tests repeat exactly. [Vigna16]
+static inline uint64_t random_bits(uint64_t *state) {
+    uint64_t x = *state;
+    x ^= x >> 12;
+    x ^= x << 25;
+    x ^= x >> 27;
+    *state = x;
+    return x * 0x2545F4914F6CDD1DULL;
+}
+
+static inline double random_unit(uint64_t *state) {
+    return (double)(random_bits(state) >> 11) * 0x1p-53;
+}
+
+#endif

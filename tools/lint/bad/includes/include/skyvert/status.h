@@ -1,0 +1,1 @@
+#include "skyvert/radiance.h"

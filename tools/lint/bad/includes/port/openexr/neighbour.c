@@ -1,0 +1,1 @@
+#include "../geographiclib/skv_geo.h"

@@ -1,0 +1,1 @@
+float sample(float x) { return x * 0.5; }

@@ -1,0 +1,1 @@
+float sample(float x) { return x * 1e-3; }

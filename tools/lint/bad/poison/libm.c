@@ -1,0 +1,1 @@
+float sample(float x) { return expf(x); }

@@ -1,0 +1,1 @@
+void sample(void) { printf("x"); }
