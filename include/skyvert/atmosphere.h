@@ -1,5 +1,5 @@
-/// Stage 1, once per change: what the planet and its air are (skv_atmosphere, the user's) and what the core derives from
-/// it (skv_model). Units: km, 1/km, nm, W m^-2 nm^-1. Altitudes are above the sphere of radius_km ("the sea").
+/// Stage 1, once per change: what the planet and its air are (skv_atmosphere, the user's) and what the core derives
+/// from it (skv_model). Units: km, 1/km, nm, W m^-2 nm^-1. Altitudes are above the sphere of radius_km ("the sea").
 #ifndef SKYVERT_ATMOSPHERE_H
 #define SKYVERT_ATMOSPHERE_H
 
@@ -14,13 +14,13 @@ extern "C" {
 
 /// How the relative density of a species depends on the altitude h. Above top_km every density is 0.
 typedef enum skv_profile_kind {
-    SKV_PROFILE_NONE = 0,               ///< the species is absent
-    SKV_PROFILE_EXPONENTIAL = 1,        ///< exp(-h/scale_height_km)
-    SKV_PROFILE_EXP_BACKGROUND = 2,     ///< (exp(-h/scale_height_km) + background) / (1 + background)
-    SKV_PROFILE_US76 = 3,               ///< exp(-us76_a h^us76_b), h in km; 1 below 0
-    SKV_PROFILE_TENT = 4,               ///< max(0, 1 - |h - peak_km|/half_width_km)
-    SKV_PROFILE_LOGNORMAL = 5,          ///< exp(-k (ln h - mu)^2)/h, normalised to 1 at its peak h = exp(mu - 1/(2k))
-    SKV_PROFILE_TABLE = 6,              ///< linear between the rows of a table, constant beyond its ends
+    SKV_PROFILE_NONE = 0,           ///< the species is absent
+    SKV_PROFILE_EXPONENTIAL = 1,    ///< exp(-h/scale_height_km)
+    SKV_PROFILE_EXP_BACKGROUND = 2, ///< (exp(-h/scale_height_km) + background) / (1 + background)
+    SKV_PROFILE_US76 = 3,           ///< exp(-us76_a h^us76_b), h in km; 1 below 0
+    SKV_PROFILE_TENT = 4,           ///< max(0, 1 - |h - peak_km|/half_width_km)
+    SKV_PROFILE_LOGNORMAL = 5,      ///< exp(-k (ln h - mu)^2)/h, normalised to 1 at its peak h = exp(mu - 1/(2k))
+    SKV_PROFILE_TABLE = 6,          ///< linear between the rows of a table, constant beyond its ends
 } skv_profile_kind;
 
 /// Rows of a density table.
@@ -28,14 +28,14 @@ typedef enum skv_profile_kind {
 
 typedef struct skv_profile {
     skv_profile_kind kind;
-    float scale_height_km; ///< [0.001, 1000]; exponential kinds
-    float background;      ///< [0, 1]; exponential with background
-    float us76_a;          ///< (0, 10], km^-b
-    float us76_b;          ///< [0.5, 3]
-    float peak_km;         ///< [0, 1000]; tent
-    float half_width_km;   ///< [0.01, 1000]; tent
-    float lognormal_mu;    ///< [-3, 7]; ln km
-    float lognormal_k;     ///< [0.05, 200]
+    float scale_height_km;          ///< [0.001, 1000]; exponential kinds
+    float background;               ///< [0, 1]; exponential with background
+    float us76_a;                   ///< (0, 10], km^-b
+    float us76_b;                   ///< [0.5, 3]
+    float peak_km;                  ///< [0, 1000]; tent
+    float half_width_km;            ///< [0.01, 1000]; tent
+    float lognormal_mu;             ///< [-3, 7]; ln km
+    float lognormal_k;              ///< [0.05, 200]
     const float *table_altitude_km; ///< [table_rows], ascending, finite; read by skv_model_build() only
     const float *table_density;     ///< [table_rows], [0, 1e6]; read by skv_model_build() only
     uint32_t table_rows;            ///< [2, SKV_TABLE_ROWS_MAX]
@@ -52,9 +52,9 @@ typedef struct skv_atmosphere {
     float top_km;    ///< altitude of the top of the air, [0.1, 1000] and <= radius_km
     int32_t bands;   ///< 3 or 4
 
-    float wavelength_nm[4];        ///< [200, 3000], ascending
-    float solar_irradiance[4];     ///< at the planet, W m^-2 nm^-1, [0, 1e6]; radiance scales with it
-    float albedo[4];               ///< of the ground (Lambert), [0, 1]
+    float wavelength_nm[4];    ///< [200, 3000], ascending
+    float solar_irradiance[4]; ///< at the planet, W m^-2 nm^-1, [0, 1e6]; radiance scales with it
+    float albedo[4];           ///< of the ground (Lambert), [0, 1]
 
     float rayleigh_scattering_per_km[4]; ///< at altitude 0, [0, 1e4]
     skv_profile rayleigh;
@@ -63,8 +63,8 @@ typedef struct skv_atmosphere {
     float aerosol_extinction_per_km[4]; ///< at altitude 0, [aerosol_scattering_per_km, 1e4]
     skv_profile aerosol;
     skv_phase aerosol_phase;
-    float aerosol_g;  ///< mean cosine of scattering, [-0.9999, 0.9999]
-    float turbidity;  ///< multiplies aerosol scattering and extinction, [0, 1e4]; 1 = as given [Keller08]
+    float aerosol_g; ///< mean cosine of scattering, [-0.9999, 0.9999]
+    float turbidity; ///< multiplies aerosol scattering and extinction, [0, 1e4]; 1 = as given [Keller08]
 
     float ozone_absorption_per_km[4]; ///< at density 1, [0, 1e4]
     skv_profile ozone;
@@ -94,8 +94,8 @@ skv_status skv_atmosphere_clear(skv_atmosphere *atmosphere, int32_t bands);
 skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, int32_t bands);
 
 /// Size of a tabulated column: rows over altitude, columns over the ray's elevation, and the columns of tangent rays.
-#define SKV_COLUMN_ROWS 48
-#define SKV_COLUMN_COLS 8
+#define SKV_COLUMN_ROWS     48
+#define SKV_COLUMN_COLS     8
 #define SKV_COLUMN_TANGENTS 64
 /// Rows of a tabulated density.
 #define SKV_DENSITY_ROWS 192
@@ -141,17 +141,18 @@ typedef struct skv_model {
     float ozone_density[SKV_DENSITY_ROWS]; ///< TABLE only
 #endif
 #if SKV_PROFILE_TABULATED
-    skv_column_table column[2];            ///< Rayleigh, aerosol
-    float density[2][SKV_DENSITY_ROWS];    ///< TABLE only
+    skv_column_table column[2];         ///< Rayleigh, aerosol
+    float density[2][SKV_DENSITY_ROWS]; ///< TABLE only
 #endif
 } skv_model;
 
 /// Checks an atmosphere and derives the model.
 /// @param[out] model       the caller's, sizeof(skv_model) bytes.
 /// @param[in]  atmosphere  may be discarded afterwards, tables included.
-/// @return SKV_OK; SKV_ERR_NULL iff a pointer is NULL (a table's too); SKV_ERR_RANGE iff a field is outside the range at
-///         its declaration, infinite or NaN; SKV_ERR_UNSUPPORTED iff a term, profile, phase or number of bands was left out
-///         at compile time. On error the model is not written.
+/// @return SKV_OK; SKV_ERR_NULL iff a pointer is NULL (a table's too); SKV_ERR_RANGE iff a field is outside the range
+/// at
+///         its declaration, infinite or NaN; SKV_ERR_UNSUPPORTED iff a term, profile, phase or number of bands was left
+///         out at compile time. On error the model is not written.
 /// Cost:   some 1e6 instructions where a column is tabulated (ozone), else some hundred. No allocation. Thread-safe.
 skv_status skv_model_build(skv_model *model, const skv_atmosphere *atmosphere);
 

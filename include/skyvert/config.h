@@ -2,8 +2,8 @@
 ///
 /// With nothing selected everything is there and is chosen at run time. A product that needs less sets macros to 0 with
 /// -D, or names one header that does so with -DSKV_CONFIG_FILE='"my_skv_config.h"'; what is left out costs no bytes and
-/// no instructions. All objects of a program must see the same selection: skv_model_build() and skv_frame_begin() record
-/// it and later calls refuse a model or frame built with another one (SKV_ERR_LAYOUT).
+/// no instructions. All objects of a program must see the same selection: skv_model_build() and skv_frame_begin()
+/// record it and later calls refuse a model or frame built with another one (SKV_ERR_LAYOUT).
 #ifndef SKYVERT_CONFIG_H
 #define SKYVERT_CONFIG_H
 
@@ -81,7 +81,7 @@
 /// Directions worked on side by side; a power of two. Results do not depend on it, stack and speed do.
 #ifndef SKV_LANES
 #if defined(__arm__) && !defined(__ARM_NEON)
-#define SKV_LANES 4
+#define SKV_LANES 1
 #else
 #define SKV_LANES 8
 #endif

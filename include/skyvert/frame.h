@@ -70,8 +70,8 @@ typedef struct skv_frame_species {
     float chapman_a;       ///< H sqrt(pi)/sqrt(2 H), times the reference density at the ground
     float chapman_z;       ///< 3 H/8
     float background;      ///< constant density beside exp(-h/H)
-    float top_column;      ///< 2 H exp(-top/H): twice the column above the top that the closed form counts; 0 = negligible
-    float top_k;           ///< 8 H/(pi (R + top))
+    float top_column; ///< 2 H exp(-top/H): twice the column above the top that the closed form counts; 0 = negligible
+    float top_k;      ///< 8 H/(pi (R + top))
 } skv_frame_species;
 
 /// Bounds that the inner loops clamp to. In memory and not as literals: gcc makes one instruction of a minimum of two
@@ -113,7 +113,8 @@ typedef struct skv_frame {
 /// @param[in]  ground_km     altitude of the ground around the observer above the sea, [-12, 12] and below the top.
 /// @param[in]  lights        [n_lights].
 /// @param[in]  n_lights      [0, SKV_LIGHTS_MAX].
-/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_RANGE; SKV_ERR_DIRECTION (of a light); SKV_ERR_UNSUPPORTED (rule, depth or term
+/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_RANGE; SKV_ERR_DIRECTION (of a light); SKV_ERR_UNSUPPORTED (rule, depth or
+/// term
 ///         left out at compile time); SKV_ERR_LAYOUT (model not built). On error the frame is not written.
 skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_quality *quality, float observer_km,
                            float ground_km, const skv_light *lights, int32_t n_lights);

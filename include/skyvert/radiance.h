@@ -17,9 +17,9 @@ extern "C" {
 typedef struct skv_rays {
     const float *direction_enu; ///< [n][3], from the observer; any length but 0 (a vertex position on a dome will do)
     size_t direction_stride;    ///< bytes from one to the next; 0 = 3 floats, packed
-    const float *length_km;     ///< [n], distance to what the ray meets (a mountain, an aircraft), >= 0, +infinity = none;
-                                ///< NULL = none for all. The ground ends a ray in any case.
-    size_t length_stride;       ///< bytes; 0 = packed
+    const float *length_km; ///< [n], distance to what the ray meets (a mountain, an aircraft), >= 0, +infinity = none;
+                            ///< NULL = none for all. The ground ends a ray in any case.
+    size_t length_stride;   ///< bytes; 0 = packed
 } skv_rays;
 
 /// Where the results are written to.
@@ -35,7 +35,8 @@ typedef struct skv_sky {
 /// @param[in]  n      number of rays.
 /// @param[in]  rays   may lie in the same vertices as the results, but in other fields.
 /// @param[out] sky
-/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT; SKV_ERR_SIZE iff a stride is no multiple of 4 or shorter than its field:
+/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT; SKV_ERR_SIZE iff a stride is no multiple of 4 or shorter than its
+/// field:
 ///         nothing is written. SKV_ERR_DIRECTION iff some ray has a zero or non-finite direction or a negative or NaN
 ///         length: its radiance and transmittance are 0, all other rays are valid.
 /// Cost:   O(n). Stack: see README "Sizes". No allocation. Thread-safe: any number of threads may share a frame.

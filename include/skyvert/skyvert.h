@@ -10,7 +10,7 @@
 #define SKV_VERSION_MAJOR 0
 #define SKV_VERSION_MINOR 1
 #define SKV_VERSION_PATCH 0
-#define SKV_VERSION "0.1.0"
+#define SKV_VERSION       "0.1.0"
 
 #include "skyvert/config.h"
 #include "skyvert/status.h"

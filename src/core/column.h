@@ -69,8 +69,8 @@ SKV_INLINE void skv_columns_background(const skv_frame *frame, unsigned has, con
         const float background = factor * frame->species[s].background;
         if (SKV_PRESENT(has, s) && background > 0.0f)
             SKV_EACH_LANE(l)
-                out->of[s].v[l] += background * skv_to_top(frame->radius_km, frame->top_km, p->h_km.v[l],
-                                                           p->r_km.v[l] * mu->v[l]);
+        out->of[s].v[l] +=
+            background * skv_to_top(frame->radius_km, frame->top_km, p->h_km.v[l], p->r_km.v[l] * mu->v[l]);
     }
 }
 
@@ -83,8 +83,7 @@ SKV_INLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned has, con
         const float ck = frame->species[s].chapman_ck, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
         SKV_EACH_LANE(l) {
             const float root = p->root_r.v[l], s8r = skv_power8(sin_chi->v[l]) * p->inv_r.v[l];
-            out->of[s].v[l] =
-                a * root * p->rho[s].v[l] * skv_chapman(ck * root, z, mu->v[l], sin_chi->v[l], s8r);
+            out->of[s].v[l] = a * root * p->rho[s].v[l] * skv_chapman(ck * root, z, mu->v[l], sin_chi->v[l], s8r);
         }
     }
 #if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
@@ -102,8 +101,7 @@ SKV_INLINE void skv_columns_chapman_tangent(const skv_frame *frame, unsigned has
             continue;
         const float a = 2.0f * frame->species[s].chapman_a, z = frame->species[s].chapman_z;
         SKV_EACH_LANE(l)
-            out->of[s].v[l] =
-                a * p->root_r.v[l] * p->rho[s].v[l] * (SKV_ERFCX_AT_0 + SKV_ERFCX_AT_0 * z * p->inv_r.v[l]);
+        out->of[s].v[l] = a * p->root_r.v[l] * p->rho[s].v[l] * (SKV_ERFCX_AT_0 + SKV_ERFCX_AT_0 * z * p->inv_r.v[l]);
     }
 #if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
     if ((has & (SKV_HAS_OZONE | SKV_HAS_RATIO)) != 0)
@@ -168,9 +166,10 @@ SKV_INLINE void skv_columns_inner_up(const skv_frame *frame, unsigned has, const
 }
 #endif
 
-/// Columns upward, mu >= 0, by the frame's backend.
-SKV_INLINE void skv_columns_up(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
-                               const skv_lanes *sin_chi, skv_columns *out) {
+/// Columns upward, mu >= 0, by the frame's backend. A function of its own: its callers are many and seldom pressed.
+static SKV_NOINLINE void skv_columns_up(const skv_frame *frame, unsigned bits, const skv_points *p, const skv_lanes *mu,
+                                        const skv_lanes *sin_chi, skv_columns *out) {
+    const unsigned has = bits & SKV_HAS_BUILT;
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
         skv_columns_inner_up(frame, has, p, mu, out);
@@ -184,7 +183,9 @@ SKV_INLINE void skv_columns_up(const skv_frame *frame, unsigned has, const skv_p
 }
 
 /// Columns of the whole ray that is tangent at p: both halves.
-SKV_INLINE void skv_columns_tangent(const skv_frame *frame, unsigned has, const skv_points *p, skv_columns *out) {
+static SKV_NOINLINE void skv_columns_tangent(const skv_frame *frame, unsigned bits, const skv_points *p,
+                                             skv_columns *out) {
+    const unsigned has = bits & SKV_HAS_BUILT;
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
         skv_lanes mu;
@@ -233,7 +234,7 @@ SKV_INLINE void skv_columns_light(const skv_frame *frame, unsigned has, const sk
         skv_lanes e;
         const float radius = frame->radius_km;
         SKV_EACH_LANE(l)
-            e.v[l] = skv_maxf(p->h_km.v[l] * (2.0f * radius + p->h_km.v[l]) - rms->v[l] * rms->v[l], 0.0f);
+        e.v[l] = skv_maxf(p->h_km.v[l] * (2.0f * radius + p->h_km.v[l]) - rms->v[l] * rms->v[l], 0.0f);
         skv_points_at(frame, has, &e, &t);
         skv_columns_tangent(frame, has, &t, &both);
         for (int s = 0; s < SKV_SPECIES; s++)

@@ -28,7 +28,7 @@
 
 /// Functions of one line in the inner loops: a call would keep the loop from being vectorised.
 #if defined(__GNUC__)
-#define SKV_INLINE static inline __attribute__((always_inline))
+#define SKV_INLINE   static inline __attribute__((always_inline))
 #define SKV_NOINLINE __attribute__((noinline))
 #else
 #define SKV_INLINE static inline

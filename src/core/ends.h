@@ -5,8 +5,8 @@
 #include "core/rays.h"
 
 /// Columns from the observer to the end of the ray.
-static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block, const skv_columns k[2],
-                                skv_columns *out) {
+static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block,
+                                         const skv_columns k[2], skv_columns *out) {
     const float radius = frame->radius_km;
     skv_points p;
     skv_lanes mu, sin_chi, past, e;
@@ -51,8 +51,8 @@ SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, c
 
 #if SKV_TERM_GROUND
 /// Lambert's ground lit by one light: albedo/pi E mu_s T_light T_view.
-static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, size_t first, const skv_block *block,
-                               const skv_columns *view, const skv_sky *sky) {
+static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, size_t first,
+                                        const skv_block *block, const skv_columns *view, const skv_sky *sky) {
     const skv_model *model = frame->model;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
     const float radius = frame->radius_km, rms0 = (radius + frame->height_km) * frame->light[light].mu_s;

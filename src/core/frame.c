@@ -61,8 +61,8 @@ static skv_status skv_frame_lights(skv_frame *f, const skv_light *lights, int32_
     return SKV_OK;
 }
 
-/// Species above the ground of this frame. Exponentials are taken relative to the ground, so no exponential of a negative
-/// altitude is formed in the air of a ground below the sea.
+/// Species above the ground of this frame. Exponentials are taken relative to the ground, so no exponential of a
+/// negative altitude is formed in the air of a ground below the sea.
 static void skv_frame_species_init(skv_frame *f, int s) {
     const skv_species *sp = &f->model->species[s];
     skv_frame_species *out = &f->species[s];
@@ -88,7 +88,8 @@ static void skv_frame_coefficients(skv_frame *f) {
     const float log2e = 1.44269504f;
     float at_ground[2];
     for (int s = 0; s < 2; s++)
-        at_ground[s] = m->species[s].column == 0 ? skv_minf(skv_exp2f(-f->ground_km * m->species[s].inv_scale_log2e), 1e6f) : 1.0f;
+        at_ground[s] =
+            m->species[s].column == 0 ? skv_minf(skv_exp2f(-f->ground_km * m->species[s].inv_scale_log2e), 1e6f) : 1.0f;
     const int bands = skv_bands(m);
     for (int b = 0; b < bands; b++) {
         f->rayleigh_per_km[b] = m->rayleigh_per_km[b] * at_ground[0];

@@ -1,9 +1,9 @@
 /// The rule gauss-exp: N Gauss-Legendre nodes per lit part of a ray, in an exponential map from its densest end.
 ///
-/// A leg is a piece of a ray on which the altitude only grows with the distance s from its origin: from the observer up,
-/// from the tangent point either way, or from the ground back to the observer. Of it [a, b] is lit. With the origin of
-/// the map at a, s = a + l(exp(k u) - 1), k = log(1 + (b-a)/l), ds = k l exp(k u) du, u in [0, 1].
-/// View columns: from the observer to P they are K + sigma col(P, up along the leg); K belongs to the leg.
+/// A leg is a piece of a ray on which the altitude only grows with the distance s from its origin: from the observer
+/// up, from the tangent point either way, or from the ground back to the observer. Of it [a, b] is lit. With the origin
+/// of the map at a, s = a + l(exp(k u) - 1), k = log(1 + (b-a)/l), ds = k l exp(k u) du, u in [0, 1]. View columns:
+/// from the observer to P they are K + sigma col(P, up along the leg); K belongs to the leg.
 #ifndef SKV_CORE_GAUSS_H
 #define SKV_CORE_GAUSS_H
 
@@ -12,11 +12,12 @@
 typedef struct skv_legs {
     skv_lanes h_km, rm, rms, nu; ///< at the origin: altitude, r mu (>= 0), r mu_s, cos(leg direction, light)
     skv_lanes a, b;              ///< lit range, km from the origin; b <= a: nothing
+    skv_lanes end;               ///< where the leg itself ends; b is that or where the shadow begins
     skv_lanes p_km;              ///< r sin(zenith angle), constant along a ray
     skv_lanes sigma;             ///< -1: the observer is at the origin's end, +1: at the far end
     skv_lanes phase[2];          ///< Rayleigh, aerosol, 1/sr
     skv_columns k;
-    float *out[SKV_LANES];       ///< where the radiance is added, [bands]
+    float *out[SKV_LANES]; ///< where the radiance is added, [bands]
 } skv_legs;
 
 /// 1/l: the slope of the ray over the altitude scale Hs, more where the air is dense.
@@ -65,11 +66,11 @@ SKV_INLINE void skv_legs_map(const skv_frame *frame, unsigned has, const skv_leg
 
 /// A sample per lane: what skv_scatter() needs of it.
 typedef struct skv_samples {
-    skv_lanes ds;       ///< path length it stands for
-    skv_lanes e;        ///< r^2 - R^2
-    skv_lanes rm, rms;  ///< r mu along the leg, r mu_s
+    skv_lanes ds;      ///< path length it stands for
+    skv_lanes e;       ///< r^2 - R^2
+    skv_lanes rm, rms; ///< r mu along the leg, r mu_s
     skv_points p;
-    skv_columns c;      ///< light -> sample -> observer
+    skv_columns c; ///< light -> sample -> observer
 #if SKV_TERM_OZONE
     skv_lanes mu_view, mu_light, tangent_km;
 #endif
@@ -115,33 +116,36 @@ SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const s
         }
         q->p.h_km.v[l] = h;
 #if SKV_TERM_OZONE
-        q->mu_view.v[l] = mv;
-        q->mu_light.v[l] = ml;
-        q->tangent_km.v[l] = tangent_h;
+        if (SKV_PRESENT(has, SKV_OZONE)) {
+            q->mu_view.v[l] = mv;
+            q->mu_light.v[l] = ml;
+            q->tangent_km.v[l] = tangent_h;
+        }
 #endif
     }
 }
 
 #if SKV_TERM_OZONE
 /// Ozone's columns from its table.
-static SKV_NOINLINE void skv_samples_ozone(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
+SKV_INLINE void skv_samples_ozone(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
     skv_lanes t, view, light;
+    skv_lookup k;
     const skv_column_table *table = &frame->model->ozone_column;
     SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * q->mu_view.v[l]);
-    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &view);
+    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &k, &view);
     SKV_EACH_LANE(l) view.v[l] *= t.v[l];
     SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * q->mu_light.v[l]);
-    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &light);
+    skv_lookup_column(frame, table, 0, &q->p.h_km, &t, &k, &light);
     SKV_EACH_LANE(l) light.v[l] *= t.v[l];
     if ((has & SKV_HAS_DOWN) != 0) {
-        skv_lookup_tangent(frame, table, 0, &q->tangent_km, &t);
+        skv_lookup_tangent(frame, table, 0, &q->tangent_km, &k, &t);
         SKV_EACH_LANE(l) {
             const float down = 2.0f * t.v[l] - light.v[l];
             light.v[l] = q->rms.v[l] < 0.0f ? down : light.v[l];
         }
     }
     SKV_EACH_LANE(l)
-        q->c.of[SKV_OZONE].v[l] = light.v[l] + (leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.v[l]);
+    q->c.of[SKV_OZONE].v[l] = light.v[l] + (leg->k.of[SKV_OZONE].v[l] + leg->sigma.v[l] * view.v[l]);
 }
 #endif
 
@@ -159,11 +163,11 @@ SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const 
     for (int s = 0; s < SKV_SPECIES; s++)
         if (SKV_PRESENT(has, s))
             SKV_EACH_LANE(l)
-                q->c.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
+    q->c.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
 }
 
 /// Single scattering along `count` legs, added to where they say.
-SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, int general, const skv_legs *leg, int count,
                                  const float irradiance[4]) {
     const int n = frame->quality.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
@@ -190,12 +194,12 @@ SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, const skv
             q.rm.v[l] = rm.v[l] + s;
             q.rms.v[l] = rms.v[l] + s * leg->nu.v[l];
         }
-        if ((has & SKV_HAS_GENERAL) != 0)
+        if (general)
             skv_samples_general(frame, has, leg, &q);
         else
             skv_samples_closed(frame, has, leg, &q);
 #if SKV_TERM_OZONE
-        if ((has & SKV_HAS_GENERAL) == 0 && SKV_PRESENT(has, SKV_OZONE))
+        if (!general && SKV_PRESENT(has, SKV_OZONE))
             skv_samples_ozone(frame, has, leg, &q);
 #endif
         skv_scatter(frame, has, &q.p, leg->phase, &q.ds, &q.c, radiance);
@@ -222,7 +226,7 @@ enum { SKV_HAS_TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT, SKV_HAS_A
 
 #define SKV_GAUSS_KERNEL(name, bits)                                                                                   \
     static SKV_NOINLINE void name(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) { \
-        skv_gauss_kernel(frame, (unsigned)(bits), leg, count, irradiance);                                             \
+        skv_gauss_kernel(frame, (unsigned)(bits), 0, leg, count, irradiance);                                          \
     }
 #if SKV_BANDS != 4
 SKV_GAUSS_KERNEL(skv_gauss_two_3, SKV_HAS_TWO)
@@ -238,7 +242,12 @@ SKV_GAUSS_KERNEL(skv_gauss_all_4_down, SKV_HAS_ALL | SKV_HAS_FOUR | SKV_HAS_DOWN
 
 static SKV_NOINLINE void skv_gauss_any(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
                                        const float irradiance[4]) {
-    skv_gauss_kernel(frame, has & SKV_HAS_BUILT, leg, count, irradiance);
+    skv_gauss_kernel(frame, has & (SKV_HAS_BUILT & ~SKV_HAS_GENERAL), 0, leg, count, irradiance);
+}
+
+static SKV_NOINLINE void skv_gauss_general(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+                                           const float irradiance[4]) {
+    skv_gauss_kernel(frame, has & SKV_HAS_BUILT, 1, leg, count, irradiance);
 }
 
 static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
@@ -265,7 +274,10 @@ static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int coun
 #endif
 #endif
     default:
-        skv_gauss_any(frame, has, leg, count, irradiance);
+        if ((has & SKV_HAS_GENERAL) != 0)
+            skv_gauss_general(frame, has, leg, count, irradiance);
+        else
+            skv_gauss_any(frame, has, leg, count, irradiance);
     }
 }
 

@@ -51,13 +51,13 @@ enum {
                     128 | (SKV_BANDS == 3 ? 0 : 256)
 };
 
-#define SKV_PRESENT(has, species) (((has) >> (species) & 1u) != 0)
+#define SKV_PRESENT(has, species) (((has) >> (species)&1u) != 0)
 
 /// Number of bands; a constant where config.h or the kernel fixes it.
 #if SKV_BANDS
 #define SKV_BANDS_OF(has) ((void)(has), SKV_BANDS)
 #else
-#define SKV_BANDS_OF(has) (((has) & SKV_HAS_FOUR) != 0 ? 4 : 3)
+#define SKV_BANDS_OF(has) (((has)&SKV_HAS_FOUR) != 0 ? 4 : 3)
 #endif
 
 SKV_INLINE int skv_bands(const skv_model *model) {
@@ -76,7 +76,7 @@ SKV_INLINE float skv_decay(const skv_frame_limits *limits, float x) {
 
 /// Which config.h selection compiled this code; recorded in models and frames.
 #define SKV_LAYOUT                                                                                                     \
-    (0x534B5601u ^ ((uint32_t)SKV_BANDS << 24) ^ ((uint32_t)SKV_TERM_OZONE << 23) ^                                   \
+    (0x534B5601u ^ ((uint32_t)SKV_BANDS << 24) ^ ((uint32_t)SKV_TERM_OZONE << 23) ^                                    \
      ((uint32_t)SKV_PROFILE_TABULATED << 22) ^ ((uint32_t)SKV_LIGHTS_MAX << 16))
 
 #endif

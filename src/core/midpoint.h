@@ -10,7 +10,7 @@
 
 typedef struct skv_midpoint_ray {
     skv_lanes length_km, rms, nu; ///< from the start of the air
-    skv_columns in, out;                     ///< K before and behind the lowest point (closed form)
+    skv_columns in, out;          ///< K before and behind the lowest point (closed form)
 } skv_midpoint_ray;
 
 #if SKV_DEPTH_INNER
@@ -45,7 +45,7 @@ SKV_INLINE void skv_midpoint_columns(const skv_frame *frame, unsigned has, const
 
 /// The whole ray from the start of the air to its end.
 static SKV_NOINLINE void skv_midpoint_begin(const skv_frame *frame, unsigned has, int light, const skv_block *block,
-                                   const skv_block_light *toward, skv_midpoint_ray *ray) {
+                                            const skv_block_light *toward, skv_midpoint_ray *ray) {
     const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
     skv_columns k[2];
     SKV_EACH_LANE(l) {
@@ -64,14 +64,15 @@ static SKV_NOINLINE void skv_midpoint_begin(const skv_frame *frame, unsigned has
         ray->out.of[s] = k[0].of[s];
         if (block->parts == 2)
             SKV_EACH_LANE(l)
-                ray->out.of[s].v[l] = block->rm.v[l] < 0.0f ? k[1].of[s].v[l] : k[0].of[s].v[l];
+        ray->out.of[s].v[l] = block->rm.v[l] < 0.0f ? k[1].of[s].v[l] : k[0].of[s].v[l];
     }
 }
 
 /// Columns light -> sample and sample -> start of the air, summed.
 /// @param rm, rms  at the sample p, which lies s km from the start.
-SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const skv_midpoint_ray *ray, const skv_points *p,
-                                   const skv_lanes *rm, const skv_lanes *rms, const skv_lanes *s_km, skv_columns *c) {
+SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const skv_midpoint_ray *ray,
+                                   const skv_points *p, const skv_lanes *rm, const skv_lanes *rms,
+                                   const skv_lanes *s_km, skv_columns *c) {
     skv_columns view;
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
@@ -99,8 +100,8 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
     for (int s = 0; s < SKV_SPECIES; s++)
         if (SKV_PRESENT(has, s))
             SKV_EACH_LANE(l) {
-                const float toward = rm->v[l] < 0.0f ? ray->in.of[s].v[l] + view.of[s].v[l]
-                                                     : ray->out.of[s].v[l] - view.of[s].v[l];
+                const float toward =
+                    rm->v[l] < 0.0f ? ray->in.of[s].v[l] + view.of[s].v[l] : ray->out.of[s].v[l] - view.of[s].v[l];
                 c->of[s].v[l] += skv_maxf(toward, 0.0f);
             }
 #endif
@@ -108,7 +109,8 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
 }
 
 static SKV_NOINLINE void skv_midpoint_block(const skv_frame *frame, unsigned has, const skv_block *block,
-                                   const skv_block_light *toward, const skv_midpoint_ray *ray, skv_lanes radiance[]) {
+                                            const skv_block_light *toward, const skv_midpoint_ray *ray,
+                                            skv_lanes radiance[]) {
     const int n = frame->quality.samples, cube = frame->quality.rule == SKV_KELLER;
     const float radius = frame->radius_km, step = 1.0f / (float)n;
     for (int b = 0; b < SKV_BANDS_OF(has); b++)
@@ -135,7 +137,8 @@ static SKV_NOINLINE void skv_midpoint_block(const skv_frame *frame, unsigned has
 }
 
 /// @return whether any ray was refused.
-static SKV_NOINLINE int skv_rule_midpoint(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+static SKV_NOINLINE int skv_rule_midpoint(const skv_frame *frame, int light, size_t n, const skv_rays *rays,
+                                          const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
     int bad = 0;

@@ -80,8 +80,9 @@ static skv_status skv_check(const skv_atmosphere *a) {
         return SKV_ERR_UNSUPPORTED;
     if (!skv_within(a->radius_km, 1.0f, 1e5f) || !skv_within(a->top_km, 0.1f, 1000.0f) || !(a->top_km <= a->radius_km))
         return SKV_ERR_RANGE;
-    int ok = skv_all_within(a->wavelength_nm, n, 200.0f, 3000.0f) && skv_all_within(a->solar_irradiance, n, 0.0f, 1e6f) &&
-             skv_all_within(a->albedo, n, 0.0f, 1.0f) && skv_all_within(a->absorption_colour, n, 1e-6f, 1.0f);
+    int ok = skv_all_within(a->wavelength_nm, n, 200.0f, 3000.0f) &&
+             skv_all_within(a->solar_irradiance, n, 0.0f, 1e6f) && skv_all_within(a->albedo, n, 0.0f, 1.0f) &&
+             skv_all_within(a->absorption_colour, n, 1e-6f, 1.0f);
     for (int b = 1; b < n; b++)
         ok &= a->wavelength_nm[b] > a->wavelength_nm[b - 1];
     if (a->rayleigh.kind != SKV_PROFILE_NONE)
@@ -95,8 +96,7 @@ static skv_status skv_check(const skv_atmosphere *a) {
         const skv_status status = skv_check_profile(profile[s], s);
         if (status != SKV_OK)
             return status;
-        const int closed = profile[s]->kind <= SKV_PROFILE_EXP_BACKGROUND;
-        if (!SKV_PROFILE_TABULATED && s != SKV_OZONE && !closed)
+        if (!SKV_PROFILE_TABULATED && s != SKV_OZONE && profile[s]->kind > SKV_PROFILE_EXP_BACKGROUND)
             return SKV_ERR_UNSUPPORTED;
     }
     return skv_check_aerosol(a);

@@ -31,7 +31,7 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
         leg->rms.v[l] = rms0 + block->leg[part].from_km.v[l] * toward->nu.v[l];
         leg->nu.v[l] = dir * toward->nu.v[l];
         leg->a.v[l] = block->leg[part].a.v[l];
-        leg->b.v[l] = block->leg[part].b.v[l];
+        leg->b.v[l] = leg->end.v[l] = block->leg[part].b.v[l];
         leg->p_km.v[l] = block->p_km.v[l];
         leg->sigma.v[l] = -dir;
     }
@@ -43,7 +43,40 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
             leg->k.of[s] = k->of[s];
 }
 
-SKV_INLINE void skv_legs_copy(const skv_legs *from, int l, skv_legs *to, int q) {
+/// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
+/// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
+/// few rays have, does the geometry again.
+/// @return SKV_LEGS_* bits.
+enum { SKV_LEGS_SPLIT = 1, SKV_LEGS_PART = 2, SKV_LEGS_BAD = 4 };
+
+static SKV_NOINLINE unsigned skv_legs_make(const skv_frame *frame, int light, size_t n, size_t first,
+                                           const skv_rays *rays, int part, skv_legs *leg, skv_lanes *resume) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    skv_block block;
+    skv_block_light toward;
+    skv_columns k[2];
+    skv_lanes dark_from;
+    skv_block_load(frame, n, first, rays, &block);
+    skv_block_columns(frame, has, &block, k);
+    skv_block_toward(frame, has, light, &block, &toward);
+    skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], leg);
+    unsigned what = block.bad ? (unsigned)SKV_LEGS_BAD : 0u;
+    what |= part + 1 < block.parts ? (unsigned)SKV_LEGS_PART : 0u;
+    if (skv_leg_shadow(frame, &block, part, &toward, &leg->rms, &leg->nu, &dark_from, resume)) {
+        leg->b = dark_from;
+        what |= SKV_LEGS_SPLIT;
+    }
+    return what;
+}
+
+SKV_INLINE void skv_legs_outputs(const skv_sky *sky, size_t bands, size_t first, int count, float *out[]) {
+    const size_t stride = sky->radiance_stride ? sky->radiance_stride : bands * sizeof(float);
+    char *at = (char *)sky->radiance + first * stride;
+    for (int l = 0; l < count; l++, at += stride)
+        out[l] = (float *)(void *)at;
+}
+
+SKV_INLINE void skv_legs_copy(const skv_legs *from, unsigned l, skv_legs *to, unsigned q) {
     to->h_km.v[q] = from->h_km.v[l];
     to->rm.v[q] = from->rm.v[l];
     to->rms.v[q] = from->rms.v[l];
@@ -59,30 +92,24 @@ SKV_INLINE void skv_legs_copy(const skv_legs *from, int l, skv_legs *to, int q) 
     to->out[q] = from->out[l];
 }
 
-SKV_INLINE void skv_legs_outputs(const skv_sky *sky, size_t bands, size_t first, int count, float *out[]) {
-    const size_t stride = sky->radiance_stride ? sky->radiance_stride : bands * sizeof(float);
-    char *at = (char *)sky->radiance + first * stride;
-    for (int l = 0; l < count; l++, at += stride)
-        out[l] = (float *)(void *)at;
-}
-
 /// A queue keeps every lane of a block busy with a lit leg, whatever the rays.
 typedef struct skv_queue {
     skv_legs leg;
-    int count;
+    unsigned count;
 } skv_queue;
 
-static void skv_queue_flush(const skv_frame *frame, int light, skv_queue *queue) {
+static SKV_NOINLINE void skv_queue_flush(const skv_frame *frame, int light, skv_queue *queue) {
     if (queue->count == 0)
         return;
-    for (int q = queue->count; q < SKV_LANES; q++)
+    for (unsigned q = queue->count; q < SKV_LANES; q++)
         skv_legs_copy(&queue->leg, 0, &queue->leg, q);
-    skv_gauss_legs(frame, &queue->leg, queue->count, frame->light[light].irradiance);
+    skv_gauss_legs(frame, &queue->leg, (int)queue->count, frame->light[light].irradiance);
     queue->count = 0;
 }
 
-static void skv_queue_push(const skv_frame *frame, int light, const skv_legs *leg, int count, skv_queue *queue) {
-    for (int l = 0; l < count; l++) {
+static SKV_NOINLINE void skv_queue_push(const skv_frame *frame, int light, const skv_legs *leg, unsigned count,
+                                        skv_queue *queue) {
+    for (unsigned l = 0; l < count; l++) {
         if (!(leg->b.v[l] > leg->a.v[l]))
             continue;
         skv_legs_copy(leg, l, &queue->leg, queue->count);
@@ -97,42 +124,37 @@ SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
     return count == SKV_LANES && (signs & 0x80000000u) == 0;
 }
 
-static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
-    const unsigned has = frame->has & SKV_HAS_BUILT;
-    const size_t bands = (size_t)SKV_BANDS_OF(has);
+static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t n, const skv_rays *rays,
+                                       const skv_sky *sky) {
+    const size_t bands = (size_t)SKV_BANDS_OF(frame->has);
     skv_queue queue;
-    int bad = 0;
-    queue.count = 0;
+    skv_legs leg;
+    unsigned seen = 0;
+    memset(&queue, 0, sizeof queue);
     for (size_t first = 0; first < n; first += SKV_LANES) {
-        skv_block block;
-        skv_block_light toward;
-        skv_columns k[2];
-        skv_block_load(frame, n, first, rays, &block);
-        skv_block_columns(frame, has, &block, k);
-        skv_block_toward(frame, has, light, &block, &toward);
-        bad |= block.bad;
+        const int count = n - first < SKV_LANES ? (int)(n - first) : SKV_LANES;
+        unsigned what = SKV_LEGS_PART;
         if (light == 0)
-            skv_clear(sky, bands, first, (size_t)block.count);
-        for (int part = 0; part < block.parts; part++) {
-            skv_legs leg;
-            skv_lanes dark_from, dark_to;
-            skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], &leg);
-            skv_legs_outputs(sky, bands, first, block.count, leg.out);
-            if (skv_leg_shadow(frame, &block, part, &toward, &leg.rms, &leg.nu, &dark_from, &dark_to)) {
-                leg.b = dark_from;
-                skv_queue_push(frame, light, &leg, block.count, &queue);
-                leg.a = dark_to;
-                leg.b = block.leg[part].b;
-                skv_queue_push(frame, light, &leg, block.count, &queue);
-            } else if (queue.count == 0 && skv_legs_full(&leg, block.count)) {
+            skv_clear(sky, bands, first, (size_t)count);
+        for (int part = 0; (what & SKV_LEGS_PART) != 0; part++) {
+            skv_lanes resume;
+            skv_legs_outputs(sky, bands, first, count, leg.out);
+            what = skv_legs_make(frame, light, n, first, rays, part, &leg, &resume);
+            seen |= what;
+            if ((what & SKV_LEGS_SPLIT) == 0 && queue.count == 0 && skv_legs_full(&leg, count)) {
                 skv_gauss_legs(frame, &leg, SKV_LANES, frame->light[light].irradiance);
-            } else {
-                skv_queue_push(frame, light, &leg, block.count, &queue);
+                continue;
+            }
+            skv_queue_push(frame, light, &leg, (unsigned)count, &queue);
+            if ((what & SKV_LEGS_SPLIT) != 0) {
+                leg.a = resume;
+                leg.b = leg.end;
+                skv_queue_push(frame, light, &leg, (unsigned)count, &queue);
             }
         }
     }
     skv_queue_flush(frame, light, &queue);
-    return bad;
+    return (seen & SKV_LEGS_BAD) != 0;
 }
 #endif
 

@@ -17,22 +17,22 @@
 #define SKV_FAR_KM 1e9f
 
 typedef struct skv_block {
-    int count;               ///< lanes in use; the others repeat an empty ray
-    int parts;               ///< 2 iff some lane has a tangent point
-    int bad;                 ///< some direction or length was refused
-    skv_lanes valid;         ///< 0: this one, else 1
-    skv_lanes view[3];       ///< unit
-    skv_lanes start_km;      ///< from the observer to where the air begins
-    skv_lanes p_km;          ///< r sin(zenith angle)
-    skv_lanes rm;            ///< r mu at the start
-    skv_lanes h_km;          ///< altitude of the start
-    skv_lanes length_km;     ///< from the start to the end
-    skv_lanes meets_ground;  ///< 1: the end is on the ground
+    int count;              ///< lanes in use; the others repeat an empty ray
+    int parts;              ///< 2 iff some lane has a tangent point
+    int bad;                ///< some direction or length was refused
+    skv_lanes valid;        ///< 0: this one, else 1
+    skv_lanes view[3];      ///< unit
+    skv_lanes start_km;     ///< from the observer to where the air begins
+    skv_lanes p_km;         ///< r sin(zenith angle)
+    skv_lanes rm;           ///< r mu at the start
+    skv_lanes h_km;         ///< altitude of the start
+    skv_lanes length_km;    ///< from the start to the end
+    skv_lanes meets_ground; ///< 1: the end is on the ground
     struct {
-        skv_lanes h_km, rm;  ///< at the origin; rm >= 0
-        skv_lanes from_km;   ///< from the observer to the origin
+        skv_lanes h_km, rm; ///< at the origin; rm >= 0
+        skv_lanes from_km;  ///< from the observer to the origin
         skv_lanes dir;
-        skv_lanes a, b;      ///< range, km from the origin
+        skv_lanes a, b; ///< range, km from the origin
     } leg[2];
 } skv_block;
 
@@ -154,7 +154,8 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
     }
 }
 
-static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays, skv_block *b) {
+static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays,
+                                        skv_block *b) {
     skv_block_gather(n, first, rays, b);
     skv_block_directions(b);
     skv_block_start(frame, b);
@@ -163,8 +164,7 @@ static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t
 
 /// Constants K of the view columns K + sigma col(P): up col(O), towards the observer -col(O), past the tangent point
 /// 2 col(T) - col(O), each column taken upward from the start of the air.
-static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b,
-                                           skv_columns k[2]) {
+static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b, skv_columns k[2]) {
     skv_points o;
     skv_lanes mu, sin_chi;
     skv_points_above(frame, has, &b->h_km, &o);
@@ -195,7 +195,8 @@ typedef struct skv_block_light {
     skv_lanes phase[2]; ///< Rayleigh, aerosol
 } skv_block_light;
 
-static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b, skv_block_light *out) {
+static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b,
+                                          skv_block_light *out) {
     const float *s = frame->light[light].direction_enu;
     const float g = frame->model->aerosol_g, sz = s[2];
     skv_lanes d;

@@ -11,11 +11,14 @@ SKV_INLINE void skv_scatter(const skv_frame *frame, unsigned has, const skv_poin
                             const skv_lanes *ds, const skv_columns *c, skv_lanes radiance[]) {
     const int bands = SKV_BANDS_OF(has);
     skv_lanes source[2];
-    for (int s = 0; s < 2; s++)
-        if (SKV_PRESENT(has, s)) {
-            skv_scattering_density(frame, has, p, s, &source[s]);
-            SKV_EACH_LANE(l) source[s].v[l] *= ds->v[l] * phase[s].v[l];
+    for (int s = 0; s < 2; s++) {
+        if (!SKV_PRESENT(has, s)) {
+            SKV_EACH_LANE(l) source[s].v[l] = 0.0f;
+            continue;
         }
+        skv_scattering_density(frame, has, p, s, &source[s]);
+        SKV_EACH_LANE(l) source[s].v[l] *= ds->v[l] * phase[s].v[l];
+    }
     for (int b = 0; b < bands; b++) {
         const float br = frame->rayleigh_log2e_per_km[b], ba = frame->aerosol_log2e_per_km[b];
         const float bo = frame->ozone_log2e_per_km[b];

@@ -11,12 +11,13 @@
 /// @param[in]  rms, nu  of the leg: r mu_s at its origin, cos(its direction, light).
 /// @param[out] from, to the dark stretch within [a, b]; from >= to where there is none.
 /// @return whether any lane has one.
-static SKV_NOINLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part, const skv_block_light *light,
-                              const skv_lanes *rms, const skv_lanes *nu, skv_lanes *from, skv_lanes *to) {
+static SKV_NOINLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part,
+                                       const skv_block_light *light, const skv_lanes *rms, const skv_lanes *nu,
+                                       skv_lanes *from, skv_lanes *to) {
     const float radius = frame->radius_km, r0 = radius + frame->height_km;
     uint32_t signs = 0, any = 0;
     SKV_EACH_LANE(l)
-        signs |= skv_bits(rms->v[l]) | skv_bits(rms->v[l] + block->leg[part].b.v[l] * nu->v[l]);
+    signs |= skv_bits(rms->v[l]) | skv_bits(rms->v[l] + block->leg[part].b.v[l] * nu->v[l]);
     if ((signs & 0x80000000u) == 0)
         return 0;
     SKV_EACH_LANE(l) {

@@ -1,9 +1,10 @@
 /// One checksum over everything the library computes, and one per part so that a difference can be located.
 ///
-///   bits [--flush] [--round up|down|zero]
+///   bits [--tiny-is-zero] [--flush] [--round up|down|zero]
 ///
-/// The options (x86) set flush-to-zero or a rounding mode as a host may have done: values stay finite and not negative,
-/// the bits may differ. Exit status 1 when a value was not what it has to be.
+/// Options (x86): --flush and --round set flush-to-zero or a rounding mode as a host may have done: values stay finite
+/// and not negative, the bits may differ. --tiny-is-zero counts values below 2^-100 (1e-30) as 0, so that a run with
+/// --flush can be compared with one without. Exit status 1 when a value was not what it has to be.
 #include "bits.h"
 
 #include <stdio.h>
@@ -17,6 +18,7 @@ static uint64_t hash, total;
 static uint32_t state;
 static char name[48];
 static unsigned long wrong;
+static int tiny_is_zero;
 
 /// printf is not the same everywhere, and large where flash is short.
 static void print_hash(const char *what, uint64_t h) {
@@ -70,7 +72,7 @@ void bits_float(float value, bits_kind kind) {
         if (wrong++ < 5)
             print_hash(name, word), puts("^ wrong: a value that is negative, infinite or NaN (its bits)");
     }
-    bits_word(word);
+    bits_word(tiny_is_zero && (word >> 23 & 255) < 127 - 100 ? 0 : word);
 }
 
 void bits_floats(const float *value, size_t n, bits_kind kind) {
@@ -127,7 +129,9 @@ static void run(bits_scale scale) {
 /// 0 when the option is not known.
 static int set_host_mode(int argc, char **argv) {
     for (int i = 1; i < argc; ++i) {
-        if (strcmp(argv[i], "--flush") == 0)
+        if (strcmp(argv[i], "--tiny-is-zero") == 0)
+            tiny_is_zero = 1;
+        else if (strcmp(argv[i], "--flush") == 0)
             _mm_setcsr(_mm_getcsr() | 0x8040); // flush to zero, denormals are zero
         else if (strcmp(argv[i], "--round") == 0 && i + 1 < argc && strchr("udz", argv[i + 1][0]) != NULL) {
             const char mode = argv[++i][0];
@@ -164,7 +168,7 @@ int main(void) {
 #else
 int main(int argc, char **argv) {
     if (!set_host_mode(argc, argv)) {
-        fputs("usage: bits [--flush] [--round up|down|zero]\n", stderr);
+        fputs("usage: bits [--tiny-is-zero] [--flush] [--round up|down|zero]\n", stderr);
         return 2;
     }
     return run_all();

@@ -52,8 +52,14 @@ build() {
 export -f build
 export G FP WARN ARM
 quiet_make "$B/cortexm/libcount.so"
-selections | xargs -P "$(nproc)" -I{} bash -c 'build {} || echo "config: {}: does not build" >&2' 2>"$G/config.log"
-[ -s "$G/config.log" ] && { head -n 30 "$G/config.log"; exit 1; }
+# The compilers' words of each selection by itself, two at a time.
+selections | xargs -P "$(nproc)" -I{} bash -c 'set -- {}; build "$@" >"$G/config-$1.log" 2>&1 || rm -f "$G/config/$1/bytes"'
+while read -r name _; do
+    [ -f "$G/config/$name/bytes" ] && continue
+    fail "config: $name does not build without a warning:"
+    grep -E 'error|warning' "$G/config-$name.log" | head -n 4
+done < <(selections)
+[ -f "$G/config/all/bytes" ] || exit 1
 
 count_m4f "$G/config/all/count.elf" "$G/config/all/counts" || fail "config: counting failed"
 all=$(cat "$G/config/all/bytes")
@@ -66,6 +72,7 @@ judge() {
 }
 echo "figure: core for Cortex-M4F -Os, everything: $all bytes of flash"
 while read -r name flags; do
+    [ -f "$G/config/$name/bytes" ] || continue
     bytes=$(cat "$G/config/$name/bytes")
     case $name in
     all) ;;

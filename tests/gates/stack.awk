@@ -27,7 +27,7 @@ function deepest(f,   list, n, i, most, d) {
         if (d > most) { most = d; via[f] = list[i] }
     }
     delete active[f]
-    return depth[f] = bytes[f] + most + call
+    return depth[f] = bytes[f] + most
 }
 END {
     for (f in bytes) if (f ~ /^skv_/) {

@@ -63,9 +63,9 @@ static void do_model(void) {
 static void do_frame(void) {
     status = skv_frame_begin(&frame, &model, &quality, 1.0f, 0.1f, light, SKV_LIGHTS_MAX > 1 ? 2 : 1);
 }
+static const skv_rays rays = {direction[0], 0, length_km, 0};
+static const skv_sky sky = {radiance[0], sizeof *radiance, transmittance[0], sizeof *transmittance};
 static void do_radiance(void) {
-    const skv_rays rays = {direction[0], 0, length_km, 0};
-    const skv_sky sky = {radiance[0], sizeof *radiance, transmittance[0], sizeof *transmittance};
     status = skv_radiance(&frame, RAYS, &rays, &sky);
 }
 static void do_colour(void) {

@@ -114,11 +114,10 @@ static void take_number(reading *r, const char *section, const char *key, bool n
 /// Cuts at commas. @return the number of items, at most 5: the fifth is one too many
 static int split_list(char *text, char *items[5]) {
     int n = 0;
-    for (char *c = text; c && n < 5; n++) {
-        items[n] = c;
-        c = strchr(c, ',');
-        if (c)
-            *c++ = '\0';
+    items[n++] = text;
+    for (char *comma = strchr(text, ','); comma && n < 5; comma = strchr(comma + 1, ',')) {
+        *comma = '\0';
+        items[n++] = comma + 1;
     }
     return n;
 }
