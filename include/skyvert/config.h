@@ -11,11 +11,6 @@
 #include SKV_CONFIG_FILE
 #endif
 
-// -ffast-math folds the rounding steps of exp2, drops the guards against NaN and contracts expressions: refused.
-#if defined(__FAST_MATH__) || defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
-#error "skyvert: build the core without -ffast-math (allowed: -fno-math-errno -fno-trapping-math)"
-#endif
-
 /// Number of bands: 0 = 3 or 4, chosen by skv_atmosphere.bands at run time; 3 or 4 = fixed.
 #ifndef SKV_BANDS
 #define SKV_BANDS 0

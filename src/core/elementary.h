@@ -12,9 +12,11 @@
 
 #include "core/elementary_coefficients.h"
 
+// -ffast-math folds the rounding steps of exp2 and drops the guards against NaN: refused for the library itself (a
+// program that links it may use what it likes). Allowed: -fno-math-errno -fno-trapping-math.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) ||                               \
-    (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__)
-#error "skyvert: these functions need IEEE arithmetic: no -ffast-math"
+    (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__) || (defined(__RECIPROCAL_MATH__) && __RECIPROCAL_MATH__)
+#error "skyvert: the library needs IEEE arithmetic: no -ffast-math, -Ofast or part of them"
 #endif
 
 /// A square root in hardware? Without one the compiler would call libm.

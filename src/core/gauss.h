@@ -9,6 +9,8 @@
 
 #include "core/scatter.h"
 
+#if SKV_RULE_GAUSS_EXP
+
 typedef struct skv_legs {
     skv_lanes h_km, rm, rms, nu; ///< at the origin: altitude, r mu (>= 0), r mu_s, cos(leg direction, light)
     skv_lanes a, b;              ///< lit range, km from the origin; b <= a: nothing
@@ -280,5 +282,7 @@ static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int coun
             skv_gauss_any(frame, has, leg, count, irradiance);
     }
 }
+
+#endif
 
 #endif

@@ -8,6 +8,9 @@
 
 #if SKV_RULE_KELLER || SKV_RULE_UNIFORM
 
+/// Which of the two, where both are compiled in.
+#define SKV_IS_KELLER(frame) (SKV_RULE_KELLER && (!SKV_RULE_UNIFORM || (frame)->quality.rule == SKV_KELLER))
+
 typedef struct skv_midpoint_ray {
     skv_lanes length_km, rms, nu; ///< from the start of the air
     skv_columns in, out;          ///< K before and behind the lowest point (closed form)
@@ -17,7 +20,7 @@ typedef struct skv_midpoint_ray {
 /// Columns along a straight piece of length_km that starts at (h, rm).
 SKV_INLINE void skv_midpoint_columns(const skv_frame *frame, unsigned has, const skv_lanes *h_km, const skv_lanes *rm,
                                      const skv_lanes *length_km, skv_columns *out) {
-    const int m = frame->quality.depth_samples, square = frame->quality.rule == SKV_KELLER;
+    const int m = frame->quality.depth_samples, square = SKV_IS_KELLER(frame);
     const float radius = frame->radius_km, step = 1.0f / (float)m;
     for (int s = 0; s < SKV_SPECIES; s++)
         SKV_EACH_LANE(l) out->of[s].v[l] = 0.0f;
@@ -106,12 +109,13 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
             }
 #endif
     (void)ray;
+    (void)s_km;
 }
 
 static SKV_NOINLINE void skv_midpoint_block(const skv_frame *frame, unsigned has, const skv_block *block,
                                             const skv_block_light *toward, const skv_midpoint_ray *ray,
                                             skv_lanes radiance[]) {
-    const int n = frame->quality.samples, cube = frame->quality.rule == SKV_KELLER;
+    const int n = frame->quality.samples, cube = SKV_IS_KELLER(frame);
     const float radius = frame->radius_km, step = 1.0f / (float)n;
     for (int b = 0; b < SKV_BANDS_OF(has); b++)
         SKV_EACH_LANE(l) radiance[b].v[l] = 0.0f;

@@ -215,14 +215,16 @@ static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, 
     if (!SKV_PRESENT(has, SKV_AEROSOL))
         return;
 #if SKV_PHASE_CORNETTE_SHANKS
-    if (frame->model->aerosol_phase == SKV_PHASE_CS)
+    if (!SKV_PHASE_HENYEY_GREENSTEIN || frame->model->aerosol_phase == SKV_PHASE_CS)
         SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_cornette_shanks(g, d.v[l], out->nu.v[l]);
 #endif
 #if SKV_PHASE_HENYEY_GREENSTEIN
-    if (frame->model->aerosol_phase == SKV_PHASE_HG)
+    if (!SKV_PHASE_CORNETTE_SHANKS || frame->model->aerosol_phase == SKV_PHASE_HG)
         SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_henyey_greenstein(g, d.v[l]);
 #endif
 #endif
+    (void)has;
+    (void)d;
 }
 
 #endif

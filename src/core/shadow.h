@@ -8,6 +8,8 @@
 
 #include "core/rays.h"
 
+#if SKV_RULE_GAUSS_EXP
+
 /// @param[in]  rms, nu  of the leg: r mu_s at its origin, cos(its direction, light).
 /// @param[out] from, to the dark stretch within [a, b]; from >= to where there is none.
 /// @return whether any lane has one.
@@ -37,5 +39,7 @@ static SKV_NOINLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *
     SKV_EACH_LANE(l) any |= skv_bits(to->v[l]) ^ skv_bits(from->v[l]);
     return any != 0;
 }
+
+#endif
 
 #endif

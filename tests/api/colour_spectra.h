@@ -1,4 +1,5 @@
-// Made by tools/fit/colour.py: spectra of six skies, not among those the matrices were fitted to. `make fit-check` compares.
+// Made by tools/fit/colour.py: spectra of six skies, not among those the matrices were fitted to. `make fit-check`
+// compares.
 // clang-format off
 #ifndef TESTS_API_COLOUR_SPECTRA_H
 #define TESTS_API_COLOUR_SPECTRA_H

@@ -42,9 +42,9 @@ else
     left+=("aarch64 (packages gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)")
 fi
 if have arm-none-eabi-gcc && have qemu-system-arm; then
-    boards=(m4f m3)
+    boards=(m4f)
     make_ bits-boards
-    if [ "${BITS:-}" = full ]; then make_ bits-boards-full && boards+=(m7); fi
+    if [ "${BITS:-}" = full ]; then make_ bits-boards-full && boards+=(m3 m7); fi
     for board in "${boards[@]}"; do
         result cortex-$board bash port/cortexm/run.sh $board "$B/cortexm/$board/bits/bits.elf"
     done

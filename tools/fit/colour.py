@@ -115,7 +115,8 @@ def test_header():
         spectra.append(ratio[0] * m.SOLAR)
     names = "".join(f'    "{s[0]}",\n' for s in TEST_SKIES)
     wrap = lambda row: "{" + ",\n     ".join(values(row[i:i + 8])[1:-1] for i in range(0, 48, 8)) + "}"
-    return f"""// Made by tools/fit/colour.py: spectra of six skies, not among those the matrices were fitted to. `make fit-check` compares.
+    return f"""// Made by tools/fit/colour.py: spectra of six skies, not among those the matrices were fitted to. `make fit-check`
+// compares.
 // clang-format off
 #ifndef TESTS_API_COLOUR_SPECTRA_H
 #define TESTS_API_COLOUR_SPECTRA_H

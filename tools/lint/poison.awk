@@ -21,7 +21,7 @@ function refuse(what) {
     bad = 1
 }
 BEGIN {
-    n = split("double malloc calloc realloc free alloca printf fprintf sprintf snprintf puts fputs putchar fopen fwrite fread FILE stdin stdout stderr errno time clock rand srand getenv exit abort setjmp longjmp signal asm __asm __asm__ volatile _Thread_local __thread goto", words, " ")
+    n = split("double malloc calloc realloc free alloca printf fprintf sprintf snprintf puts fputs putchar fopen fwrite fread FILE stdin stdout stderr errno time clock rand srand getenv exit abort setjmp longjmp signal asm __asm __asm__ _Thread_local __thread goto", words, " ")
     for (i = 1; i <= n; i++) poison[words[i]] = 1
     n = split("sin cos tan asin acos atan atan2 sinh cosh tanh exp exp2 expm1 log log2 log10 log1p pow sqrt cbrt hypot fabs floor ceil trunc round rint lrint nearbyint fmod fmin fmax fma ldexp frexp modf copysign erf erfc isnan isinf isfinite", words, " ")
     for (i = 1; i <= n; i++) { libm[words[i]] = 1; libm[words[i] "f"] = 1 }

@@ -1,3 +1,5 @@
 // Must be refused: recursion has no bound.
 int skv_radiance(int n);
-int skv_radiance(int n) { return n == 0 ? 0 : 1 + skv_radiance(n - 1); }
+int skv_radiance(int n) {
+    return n == 0 ? 0 : 1 + skv_radiance(n - 1);
+}
