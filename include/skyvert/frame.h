@@ -96,6 +96,7 @@ typedef struct skv_frame {
     skv_frame_limits limits;
     skv_frame_species species[3];
     float inner_scale_km; ///< of the exponential map of the inner depth
+    float map_scale;      ///< largest scale height over 8 km
     float map_per_km[2];  ///< extinction that shortens the map of gauss-exp, per unit of relative density
     /// Per unit of relative density (exponential species: of that at the ground); extinction times log2(e).
     float rayleigh_per_km[4];

@@ -108,6 +108,7 @@ static void skv_frame_coefficients(skv_frame *f) {
         lo = skv_minf(lo, m->species[s].scale_height_km);
         hi = skv_maxf(hi, m->species[s].scale_height_km);
     }
+    f->map_scale = hi > 0.0f ? 0.125f * hi : 1.0f;
     f->inner_scale_km = hi > 0.0f ? skv_sqrtf(lo * hi) : 8.0f;
 }
 

@@ -27,7 +27,8 @@ SKV_INLINE float skv_map_inverse(float hs, float mu, float inv_r, float extincti
     return (0.5f * mu + skv_root(0.25f * mu * mu + 0.5f * hs * inv_r)) / hs + 0.19f * extinction_per_km;
 }
 
-/// Hs against the sine of the light's elevation, of one unit of the frame's scale: smooth, so that nothing pops.
+/// Hs against the sine of the light's elevation, km where the largest scale height is 8 km: smooth, so that nothing
+/// pops.
 SKV_INLINE float skv_map_scale(float mu_s) {
     const float x = skv_clampf((0.2f - mu_s) * 2.5f, 0.0f, 1.0f);
     return 6.0f + 8.0f * x * x * (3.0f - 2.0f * x);
@@ -58,7 +59,8 @@ SKV_INLINE void skv_legs_map(const skv_frame *frame, unsigned has, const skv_leg
         if (SKV_PRESENT(has, SKV_AEROSOL))
             extinction += o->rho[SKV_AEROSOL].v[l] * dense_a;
         const float inv_r = o->inv_r.v[l];
-        const float inv = skv_map_inverse(skv_map_scale(rms->v[l] * inv_r), rm->v[l] * inv_r, inv_r, extinction);
+        const float inv =
+            skv_map_inverse(frame->map_scale * skv_map_scale(rms->v[l] * inv_r), rm->v[l] * inv_r, inv_r, extinction);
         const float x = skv_maxf(leg->b.v[l] - leg->a.v[l], 0.0f) * inv;
         l_km->v[l] = 1.0f / inv;
         k->v[l] = skv_log1pf(x);

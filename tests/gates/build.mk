@@ -25,9 +25,13 @@ $(GATES)/%/stack: tests/gates/stack.c
 	$(firstword $(subst -, ,$*)) -std=c99 -O2 $(WARN) -Iinclude $< $(filter %.o,$^) -o $@
 $(GATES)/gcc/count $(GATES)/gcc/stack: $(GATES_SRC:%.c=$(GATES)/gcc/%.o)
 $(GATES)/clang/count $(GATES)/clang/stack: $(GATES_SRC:%.c=$(GATES)/clang/%.o)
+TEST_FULL_SCRIPT += tests/gates/config-full.sh
 TEST_SCRIPT += tests/gates/sizes.sh tests/gates/config.sh tests/gates/fastmath.sh
 .PHONY: gates-programs cortexm-programs sizes
-gates-programs: $(GATES)/gcc/count $(GATES)/gcc/stack $(GATES)/clang/count $(GATES)/clang/stack
+$(GATES)/cc/stack: tests/gates/stack.c $(LIB)
+	@mkdir -p $(@D)
+	$(CC) -std=c99 -O2 $(WARN) -Iinclude $^ -o $@
+gates-programs: $(GATES)/cc/stack $(GATES)/gcc/count $(GATES)/gcc/stack $(GATES)/clang/count $(GATES)/clang/stack
 cortexm-programs: $(CM)/m4f/gates/count.elf $(CM)/m4f/gates/stack.elf $(CM)/m4f/gates/sizes.elf $(CM)/m4f/demo.elf $(CM)/libcount.so
 sizes: ## flash, stack, table bytes and instructions per vertex, x86-64 and Cortex-M4F
 	@B=$(B) MAKE="$(MAKE)" $(BASH) tests/gates/sizes.sh

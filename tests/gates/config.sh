@@ -1,11 +1,23 @@
 #!/usr/bin/env bash
-# What config.h leaves out costs no bytes and no instructions: the core is built for Cortex-M4F (-Os) with each macro at 0,
+# What config.h leaves out costs no bytes and no instructions: the core is built, for Cortex-M4F (-Os), with each macro at 0,
 # and a vertex is counted with the thing left out and with it there but switched off at run time. Each selection must
 # also compile without a warning with gcc and clang for the host.
 . "$(dirname "$0")/lib.sh"
 . "$(dirname "$0")/counts.sh"
-for tool in arm-none-eabi-gcc qemu-system-arm clang; do
-    have $tool || { echo "config: no $tool (packages gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang)"; exit 77; }
+# CONFIG=x86 does the same for x86-64 with AVX2 (-O2, counted by callgrind): config-full.sh.
+if [ "${CONFIG:-}" = x86 ]; then
+    NAME="x86-64 gcc -O2 AVX2" COMPILE="gcc -O2 -mavx2" COUNT=count_x86 DIR=$G/config-x86 SIZE=size
+    LINK="gcc -O2 -Iinclude tests/gates/count.c" LINK_END=""
+    TOOLS="gcc clang valgrind"
+    [ "$(uname -m)" = x86_64 ] || { echo "config: this machine is no x86-64"; exit 77; }
+else
+    NAME="Cortex-M4F -Os" COMPILE="arm-none-eabi-gcc -Os -ffunction-sections $ARM" COUNT=count_m4f DIR=$G/config SIZE=arm-none-eabi-size
+    LINK="arm-none-eabi-gcc -Os $ARM -Iinclude -Iport/cortexm tests/gates/count.c"
+    LINK_END="port/cortexm/start.c port/cortexm/semihosting.c port/cortexm/newlib.c -nostartfiles -Wl,-T,port/cortexm/cortexm.ld -Wl,--gc-sections -Wl,--no-warn-rwx-segments"
+    TOOLS="arm-none-eabi-gcc qemu-system-arm gcc clang"
+fi
+for tool in $TOOLS; do
+    have "$tool" || { echo "config: no $tool (packages gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang valgrind)"; exit 77; }
 done
 # name, macros. The names of single macros are those of count.c's cases.
 selections() {
@@ -32,9 +44,10 @@ rayleigh-only -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH
 LIST
 }
 WARN="-Wall -Wextra -Wpedantic -Werror -Wconversion -Wdouble-promotion -Wfloat-conversion -Wshadow -Wstrict-prototypes -Wundef"
-# build NAME FLAG...: core objects, counting program and their text bytes in $G/config/NAME; nothing where they are new.
+# build NAME FLAG...: core objects, counting program and their text bytes in $DIR/NAME; nothing where they are new.
+# shellcheck disable=SC2086
 build() {
-    local dir=$G/config/$1 f objects=()
+    local dir=$DIR/$1 f objects=()
     shift
     if [ -f "$dir/bytes" ] && [ -z "$(find src/core include port/cortexm tests/gates -newer "$dir/bytes" -name '*.[ch]' -print -quit)" ]; then return 0; fi
     rm -rf "$dir"
@@ -42,28 +55,28 @@ build() {
     for f in src/core/*.c; do
         clang -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
         gcc -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
-        arm-none-eabi-gcc -std=c99 -Os -ffunction-sections $ARM $FP $WARN -Wno-type-limits "$@" -Iinclude -Isrc -c "$f" -o "$dir/$(basename "$f" .c).o" || return 1
+        $COMPILE -std=c99 $FP $WARN -Wno-type-limits "$@" -Iinclude -Isrc -c "$f" -o "$dir/$(basename "$f" .c).o" || return 1
         objects+=("$dir/$(basename "$f" .c).o")
     done
-    arm-none-eabi-gcc -std=c99 -Os $ARM $FP "$@" -Iinclude -Iport/cortexm tests/gates/count.c "${objects[@]}" port/cortexm/{start,semihosting,newlib}.c \
-        -nostartfiles -Wl,-T,port/cortexm/cortexm.ld -Wl,--gc-sections -Wl,--no-warn-rwx-segments -o "$dir/count.elf" || return 1
-    arm-none-eabi-size "${objects[@]}" | awk 'NR > 1 { sum += $1 } END { print sum }' >"$dir/bytes"
+    $LINK -std=c99 $FP "$@" "${objects[@]}" $LINK_END -o "$dir/count" || return 1
+    $SIZE "${objects[@]}" | awk 'NR > 1 { sum += $1 } END { print sum }' >"$dir/bytes"
 }
 export -f build
-export G FP WARN ARM
-quiet_make "$B/cortexm/libcount.so"
+export DIR FP WARN COMPILE LINK LINK_END SIZE
+[ "$COUNT" = count_x86 ] || quiet_make "$B/cortexm/libcount.so"
 # The compilers' words of each selection by itself, two at a time.
-selections | xargs -P "$(nproc)" -I{} bash -c 'set -- {}; build "$@" >"$G/config-$1.log" 2>&1 || rm -f "$G/config/$1/bytes"'
+mkdir -p "$DIR"
+selections | xargs -P "$(nproc)" -I{} bash -c 'set -- {}; build "$@" >"$DIR/$1.log" 2>&1 || rm -f "$DIR/$1/bytes"'
 while read -r name _; do
-    [ -f "$G/config/$name/bytes" ] && continue
+    [ -f "$DIR/$name/bytes" ] && continue
     fail "config: $name does not build without a warning:"
-    grep -E 'error|warning' "$G/config-$name.log" | head -n 4
+    grep -E 'error|warning' "$DIR/$name.log" | head -n 4
 done < <(selections)
-[ -f "$G/config/all/bytes" ] || exit 1
+[ -f "$DIR/all/bytes" ] || exit 1
 
-count_m4f "$G/config/all/count.elf" "$G/config/all/counts" || fail "config: counting failed"
-all=$(cat "$G/config/all/bytes")
-[ "$(grep -c '^off:' "$G/config/all/counts")" -ge 15 ] || fail "config: the full build answers too few cases"
+$COUNT "$DIR/all/count" "$DIR/all/counts" || fail "config: counting failed"
+all=$(cat "$DIR/all/bytes")
+[ "$(grep -c '^off:' "$DIR/all/counts")" -ge 15 ] || fail "config: the full build answers too few cases"
 # judge NAME BYTES LEFT-OUT SWITCHED-OFF: fewer bytes, no more instructions (one in a thousand is the compiler's choice of
 # registers: two of 10,697 were seen).
 judge() {
@@ -71,22 +84,25 @@ judge() {
     [ -n "$3" ] || { echo "config: $1: its case was not answered"; return 1; }
     [ "$3" -le $(($4 + $4 / 1000)) ] || { echo "config: $1: $3 instructions per vertex, $4 when switched off at run time"; return 1; }
 }
-echo "figure: core for Cortex-M4F -Os, everything: $all bytes of flash"
+echo "figure: core, $NAME, everything: $all bytes"
 while read -r name flags; do
-    [ -f "$G/config/$name/bytes" ] || continue
-    bytes=$(cat "$G/config/$name/bytes")
+    [ -f "$DIR/$name/bytes" ] || continue
+    bytes=$(cat "$DIR/$name/bytes")
     case $name in
     all) ;;
     SKV_*)
-        count_m4f "$G/config/$name/count.elf" "$G/config/$name/counts" || fail "config: $name: counting failed"
-        out=$(awk -v c="off:$name" '$1 == c { print $2 }' "$G/config/$name/counts")
-        off=$(awk -v c="off:$name" '$1 == c { print $2 }' "$G/config/all/counts")
+        $COUNT "$DIR/$name/count" "$DIR/$name/counts" || fail "config: $name: counting failed"
+        out=$(awk -v c="off:$name" '$1 == c { print $2 }' "$DIR/$name/counts")
+        off=$(awk -v c="off:$name" '$1 == c { print $2 }' "$DIR/all/counts")
         judge "$name" "$bytes" "$out" "$off" || failed=1
         printf 'figure: %-32s %6d bytes (-%d), %5d instructions/vertex, %5d when switched off at run time\n' "$name" "$bytes" $((all - bytes)) "$out" "$off"
         ;;
     *) printf 'figure: %-32s %6d bytes (%s)\n' "$name" "$bytes" "${flags//-DSKV_/}" ;;
     esac
 done < <(selections)
+# The other way to select: a header of the product's own.
+printf '#define SKV_BANDS 3\n#define SKV_TERM_OZONE 0\n' >"$G/product.h"
+gcc -std=c99 -fsyntax-only $FP $WARN '-DSKV_CONFIG_FILE="product.h"' -I"$G" -Iinclude -Isrc src/core/model.c || fail "config: SKV_CONFIG_FILE"
 # Samples that must fail: as many bytes, more instructions.
 must_fail "a selection as large as everything" judge sample "$all" 1 1
 must_fail "a selection that costs instructions" judge sample 1 1002 1000

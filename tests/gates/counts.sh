@@ -1,9 +1,9 @@
 # counts.sh: instructions per vertex of tests/gates/count.c. Sourced after lib.sh.
 # count_x86 BINARY OUT: `name instructions-per-vertex` lines by callgrind.
 count_x86() {
-    local dir
-    dir=$(mktemp -d)
-    (cd "$dir" && valgrind --tool=callgrind --callgrind-out-file=cg "$1") >"$dir/cases" 2>"$dir/log" || { cat "$dir/log"; rm -rf "$dir"; return 1; }
+    local dir program
+    dir=$(mktemp -d) program=$(realpath "$1")
+    (cd "$dir" && valgrind --tool=callgrind --callgrind-out-file=cg "$program") >"$dir/cases" 2>"$dir/log" || { cat "$dir/log"; rm -rf "$dir"; return 1; }
     awk '/^desc: Trigger: Client Request:/ { sub(/.*Request: /, ""); name = $0 }
          /^(totals|summary):/ && name != "" { print name, $2; name = "" }' "$dir"/cg.* >"$dir/counts"
     per_vertex "$dir/cases" "$dir/counts" >"$2"

@@ -29,8 +29,9 @@ if [ "$(uname -m)" = x86_64 ]; then
     call_graph "$G"/gcc/src/*/*.ci >"$G/graph-x86.txt" || { cat "$G/graph-x86.txt"; failed=1; }
     "$G/gcc/stack" >"$G/stack-gcc.txt" && stack_report "x86-64 gcc AVX2" $X86_STACK "$G/graph-x86.txt" "$G/stack-gcc.txt" || failed=1
     "$G/clang/stack" >"$G/stack-clang.txt" && stack_report "x86-64 clang AVX2" $X86_STACK /dev/null "$G/stack-clang.txt" || failed=1
+    "$G/cc/stack" >"$G/stack-cc.txt" && stack_report "this build's library" $X86_STACK /dev/null "$G/stack-cc.txt" || failed=1
     if have valgrind; then
-        for cc in gcc clang; do count_x86 "$PWD/${G#"$PWD"/}/$cc/count" "$G/count-$cc.txt" && counted "x86-64 $cc AVX2" "$G/count-$cc.txt" || fail "sizes: callgrind failed"; done
+        for cc in gcc clang; do count_x86 "$G/$cc/count" "$G/count-$cc.txt" && counted "x86-64 $cc AVX2" "$G/count-$cc.txt" || fail "sizes: callgrind failed"; done
     fi
 fi
 if have arm-none-eabi-gcc && have qemu-system-arm; then
