@@ -168,7 +168,7 @@ SKV_INLINE void skv_columns_inner_up(const skv_frame *frame, unsigned has, const
 
 /// Columns upward, mu >= 0, by the frame's backend. A function of its own: its callers are many and seldom pressed.
 static SKV_NOINLINE void skv_columns_up(const skv_frame *frame, unsigned bits, const skv_points *p, const skv_lanes *mu,
-                                        const skv_lanes *sin_chi, skv_columns *out) {
+                                        const skv_lanes *sin_chi, skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
@@ -184,7 +184,7 @@ static SKV_NOINLINE void skv_columns_up(const skv_frame *frame, unsigned bits, c
 
 /// Columns of the whole ray that is tangent at p: both halves.
 static SKV_NOINLINE void skv_columns_tangent(const skv_frame *frame, unsigned bits, const skv_points *p,
-                                             skv_columns *out) {
+                                             skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {

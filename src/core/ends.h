@@ -6,7 +6,7 @@
 
 /// Columns from the observer to the end of the ray.
 static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block,
-                                         const skv_columns k[2], skv_columns *out) {
+                                         const skv_columns k[2], skv_columns *restrict out) {
     const float radius = frame->radius_km;
     skv_points p;
     skv_lanes mu, sin_chi, past, e;

@@ -50,7 +50,8 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
 enum { SKV_LEGS_SPLIT = 1, SKV_LEGS_PART = 2, SKV_LEGS_BAD = 4 };
 
 static SKV_NOINLINE unsigned skv_legs_make(const skv_frame *frame, int light, size_t n, size_t first,
-                                           const skv_rays *rays, int part, skv_legs *leg, skv_lanes *resume) {
+                                           const skv_rays *rays, int part, skv_legs *restrict leg,
+                                           skv_lanes *restrict resume) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     skv_block block;
     skv_block_light toward;

@@ -155,7 +155,7 @@ SKV_INLINE void skv_block_legs(const skv_frame *frame, skv_block *b) {
 }
 
 static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t first, const skv_rays *rays,
-                                        skv_block *b) {
+                                        skv_block *restrict b) {
     skv_block_gather(n, first, rays, b);
     skv_block_directions(b);
     skv_block_start(frame, b);
@@ -164,7 +164,8 @@ static SKV_NOINLINE void skv_block_load(const skv_frame *frame, size_t n, size_t
 
 /// Constants K of the view columns K + sigma col(P): up col(O), towards the observer -col(O), past the tangent point
 /// 2 col(T) - col(O), each column taken upward from the start of the air.
-static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b, skv_columns k[2]) {
+static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b,
+                                           skv_columns k[restrict 2]) {
     skv_points o;
     skv_lanes mu, sin_chi;
     skv_points_above(frame, has, &b->h_km, &o);
@@ -196,7 +197,7 @@ typedef struct skv_block_light {
 } skv_block_light;
 
 static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b,
-                                          skv_block_light *out) {
+                                          skv_block_light *restrict out) {
     const float *s = frame->light[light].direction_enu;
     const float g = frame->model->aerosol_g, sz = s[2];
     skv_lanes d;

@@ -15,7 +15,7 @@
 /// @return whether any lane has one.
 static SKV_NOINLINE int skv_leg_shadow(const skv_frame *frame, const skv_block *block, int part,
                                        const skv_block_light *light, const skv_lanes *rms, const skv_lanes *nu,
-                                       skv_lanes *from, skv_lanes *to) {
+                                       skv_lanes *restrict from, skv_lanes *restrict to) {
     const float radius = frame->radius_km, r0 = radius + frame->height_km;
     uint32_t signs = 0, any = 0;
     SKV_EACH_LANE(l)
