@@ -16,7 +16,7 @@ extern "C" {
 typedef enum skv_profile_kind {
     SKV_PROFILE_NONE = 0,           ///< the species is absent
     SKV_PROFILE_EXPONENTIAL = 1,    ///< exp(-h/scale_height_km)
-    SKV_PROFILE_EXP_BACKGROUND = 2, ///< (exp(-h/scale_height_km) + background) / (1 + background)
+    SKV_PROFILE_EXP_BACKGROUND = 2, ///< (exp(-h/scale_height_km) + background)/(1 + background); aerosol only
     SKV_PROFILE_US76 = 3,           ///< exp(-us76_a h^us76_b), h in km; 1 below 0
     SKV_PROFILE_TENT = 4,           ///< max(0, 1 - |h - peak_km|/half_width_km)
     SKV_PROFILE_LOGNORMAL = 5,      ///< exp(-k (ln h - mu)^2)/h, normalised to 1 at its peak h = exp(mu - 1/(2k))
@@ -30,13 +30,13 @@ typedef struct skv_profile {
     skv_profile_kind kind;
     float scale_height_km;          ///< [0.001, 1000]; exponential kinds
     float background;               ///< [0, 1]; exponential with background
-    float us76_a;                   ///< (0, 10], km^-b
+    float us76_a;                   ///< [1e-6, 10], km^-b
     float us76_b;                   ///< [0.5, 3]
     float peak_km;                  ///< [0, 1000]; tent
     float half_width_km;            ///< [0.01, 1000]; tent
     float lognormal_mu;             ///< [-3, 7]; ln km
     float lognormal_k;              ///< [0.05, 200]
-    const float *table_altitude_km; ///< [table_rows], ascending, finite; read by skv_model_build() only
+    const float *table_altitude_km; ///< [table_rows], ascending, [-1e4, 1e4]; read by skv_model_build() only
     const float *table_density;     ///< [table_rows], [0, 1e6]; read by skv_model_build() only
     uint32_t table_rows;            ///< [2, SKV_TABLE_ROWS_MAX]
 } skv_profile;
@@ -63,14 +63,14 @@ typedef struct skv_atmosphere {
     float aerosol_extinction_per_km[4]; ///< at altitude 0, [aerosol_scattering_per_km, 1e4]
     skv_profile aerosol;
     skv_phase aerosol_phase;
-    float aerosol_g; ///< mean cosine of scattering, [-0.9999, 0.9999]
+    float aerosol_g; ///< parameter of the phase function (Henyey-Greenstein: its mean cosine), [-0.9999, 0.9999]
     float turbidity; ///< multiplies aerosol scattering and extinction, [0, 1e4]; 1 = as given [Keller08]
 
     float ozone_absorption_per_km[4]; ///< at density 1, [0, 1e4]
     skv_profile ozone;
 
     /// Constant absorption colour [Keller08]: the share of light, per band, that is left after absorption which is not
-    /// modelled as a species; multiplies radiance only, (0, 1]; 1 = none.
+    /// modelled as a species; multiplies radiance only, [1e-6, 1]; 1 = none.
     float absorption_colour[4];
 } skv_atmosphere;
 

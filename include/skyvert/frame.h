@@ -41,7 +41,7 @@ typedef struct skv_quality {
     skv_rule rule;
     skv_depth depth;
     int32_t samples;       ///< N, [1, 64]; gauss-exp: [2, 16], per lit part of a ray (at most three)
-    int32_t depth_samples; ///< M, [1, 64]; inner depth only
+    int32_t depth_samples; ///< M, [1, 64]; gauss-exp: [2, 16]; inner depth only
     uint32_t terms;        ///< SKV_WITH_* bits
 } skv_quality;
 
@@ -51,7 +51,7 @@ skv_status skv_quality_tier(skv_quality *quality, skv_tier tier);
 
 /// A distant light. The sun is one, the moon may be another.
 typedef struct skv_light {
-    float direction_enu[3]; ///< toward the light; any length but 0
+    float direction_enu[3]; ///< toward the light; any normal length
     float irradiance[4];    ///< above the air, on a plane facing the light, W m^-2 nm^-1, [0, 1e6]
 } skv_light;
 

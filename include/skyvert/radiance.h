@@ -15,7 +15,7 @@ extern "C" {
 
 /// Where the rays are read from: fields of the caller's vertices, any stride.
 typedef struct skv_rays {
-    const float *direction_enu; ///< [n][3], from the observer; any length but 0 (a vertex position on a dome will do)
+    const float *direction_enu; ///< [n][3], from the observer; any length but 0 or subnormal (a dome vertex will do)
     size_t direction_stride;    ///< bytes from one to the next; 0 = 3 floats, packed
     const float *length_km; ///< [n], distance to what the ray meets (a mountain, an aircraft), >= 0, +infinity = none;
                             ///< NULL = none for all. The ground ends a ray in any case.

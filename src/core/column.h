@@ -74,9 +74,12 @@ SKV_INLINE void skv_columns_background(const skv_frame *frame, unsigned has, con
     }
 }
 
+// The backends are functions of their own: their callers are many and seldom pressed.
 #if SKV_DEPTH_CHAPMAN
-SKV_INLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
-                                       const skv_lanes *sin_chi, skv_columns *out) {
+static SKV_NOINLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned bits, const skv_points *p,
+                                                const skv_lanes *mu, const skv_lanes *sin_chi,
+                                                skv_columns *restrict out) {
+    const unsigned has = bits & SKV_HAS_BUILT;
     for (int s = 0; s < 2; s++) {
         if (!SKV_PRESENT(has, s))
             continue;
@@ -94,8 +97,9 @@ SKV_INLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned has, con
         skv_columns_background(frame, has, p, mu, 1.0f, out);
 }
 
-SKV_INLINE void skv_columns_chapman_tangent(const skv_frame *frame, unsigned has, const skv_points *p,
-                                            skv_columns *out) {
+static SKV_NOINLINE void skv_columns_chapman_tangent(const skv_frame *frame, unsigned bits, const skv_points *p,
+                                                     skv_columns *restrict out) {
+    const unsigned has = bits & SKV_HAS_BUILT;
     for (int s = 0; s < 2; s++) {
         if (!SKV_PRESENT(has, s))
             continue;
@@ -131,8 +135,9 @@ SKV_INLINE void skv_densities(const skv_frame *frame, unsigned has, const skv_po
 }
 
 /// By Gauss-Legendre nodes in an exponential map: any profile, any size of planet.
-SKV_INLINE void skv_columns_inner_up(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
-                                     skv_columns *out) {
+static SKV_NOINLINE void skv_columns_inner_up(const skv_frame *frame, unsigned bits, const skv_points *p,
+                                              const skv_lanes *mu, skv_columns *restrict out) {
+    const unsigned has = bits & SKV_HAS_BUILT;
     const int want = frame->quality.depth_samples, m = want < 2 ? 2 : want > 16 ? 16 : want;
     const float *node = skv_gauss_node + skv_gauss_offset(m), *weight = skv_gauss_weight + skv_gauss_offset(m);
     const float radius = frame->radius_km, hs = frame->inner_scale_km;
@@ -166,10 +171,9 @@ SKV_INLINE void skv_columns_inner_up(const skv_frame *frame, unsigned has, const
 }
 #endif
 
-/// Columns upward, mu >= 0, by the frame's backend. A function of its own: its callers are many and seldom pressed.
-static SKV_NOINLINE void skv_columns_up(const skv_frame *frame, unsigned bits, const skv_points *p, const skv_lanes *mu,
-                                        const skv_lanes *sin_chi, skv_columns *restrict out) {
-    const unsigned has = bits & SKV_HAS_BUILT;
+/// Columns upward, mu >= 0, by the frame's backend.
+SKV_INLINE void skv_columns_up(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
+                               const skv_lanes *sin_chi, skv_columns *out) {
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
         skv_columns_inner_up(frame, has, p, mu, out);
@@ -183,9 +187,7 @@ static SKV_NOINLINE void skv_columns_up(const skv_frame *frame, unsigned bits, c
 }
 
 /// Columns of the whole ray that is tangent at p: both halves.
-static SKV_NOINLINE void skv_columns_tangent(const skv_frame *frame, unsigned bits, const skv_points *p,
-                                             skv_columns *restrict out) {
-    const unsigned has = bits & SKV_HAS_BUILT;
+SKV_INLINE void skv_columns_tangent(const skv_frame *frame, unsigned has, const skv_points *p, skv_columns *out) {
 #if SKV_DEPTH_INNER
     if (!SKV_DEPTH_CHAPMAN || (has & SKV_HAS_INNER) != 0) {
         skv_lanes mu;

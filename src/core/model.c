@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "core/arithmetic.h"
 #include "core/column_table.h"
 #include "core/lanes.h"
 
@@ -108,7 +109,7 @@ static void skv_species_init(skv_species *sp, const skv_profile *p, int species,
     sp->kind = (int32_t)p->kind;
     sp->column = species == SKV_OZONE ? 2 : p->kind <= SKV_PROFILE_EXP_BACKGROUND ? 0 : 1;
     const int exponential = p->kind == SKV_PROFILE_EXPONENTIAL || p->kind == SKV_PROFILE_EXP_BACKGROUND;
-    sp->scale_height_km = exponential ? p->scale_height_km : 1.0f;
+    sp->scale_height_km = exponential ? p->scale_height_km : 1.0f; // never 0: it is divided by
     sp->inv_scale_log2e = log2e / sp->scale_height_km;
     if (p->kind == SKV_PROFILE_EXP_BACKGROUND)
         sp->background = p->background;
@@ -180,6 +181,8 @@ static void skv_tables(skv_model *m, const skv_atmosphere *a) {
 skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
     if (!model || !a)
         return SKV_ERR_NULL;
+    if (skv_arithmetic_changed())
+        return SKV_ERR_UNSUPPORTED;
     const skv_status status = skv_check(a);
     if (status != SKV_OK)
         return status;

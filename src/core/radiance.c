@@ -108,13 +108,20 @@ static SKV_NOINLINE void skv_queue_flush(const skv_frame *frame, int light, skv_
     queue->count = 0;
 }
 
-static SKV_NOINLINE void skv_queue_push(const skv_frame *frame, int light, const skv_legs *leg, unsigned count,
-                                        skv_queue *queue) {
-    for (unsigned l = 0; l < count; l++) {
-        if (!(leg->b.v[l] > leg->a.v[l]))
-            continue;
-        skv_legs_copy(leg, l, &queue->leg, queue->count);
-        if (++queue->count == SKV_LANES)
+/// Takes lit legs from lane l on until the queue is full. @return the lane to go on with.
+static SKV_NOINLINE unsigned skv_queue_take(const skv_legs *leg, unsigned l, unsigned count, skv_queue *queue) {
+    for (; l < count && queue->count < SKV_LANES; l++)
+        if (leg->b.v[l] > leg->a.v[l])
+            skv_legs_copy(leg, l, &queue->leg, queue->count++);
+    return l;
+}
+
+/// The kernel is called from here and not from below: its stack is the deepest.
+SKV_INLINE void skv_queue_push(const skv_frame *frame, int light, const skv_legs *leg, unsigned count,
+                               skv_queue *queue) {
+    for (unsigned l = 0; l < count;) {
+        l = skv_queue_take(leg, l, count, queue);
+        if (queue->count == SKV_LANES)
             skv_queue_flush(frame, light, queue);
     }
 }

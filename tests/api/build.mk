@@ -2,6 +2,7 @@
 # `make test`. Libraries that only one of them needs: API_LIBS_test_NAME. None includes anything of src/.
 API_TESTS := $(patsubst tests/api/%.c,%,$(wildcard tests/api/test_*.c))
 TEST_BIN  += $(API_TESTS:%=$(B)/tests/api/%)
+TEST_SCRIPT += tests/api/radiance_truth.sh
 DEPS_TEST += libcmocka-dev liberfa-dev
 
 $(foreach t,$(filter test_sun% test_moon%,$(API_TESTS)),$(eval API_LIBS_$(t) ?= -lerfa))

@@ -1,6 +1,5 @@
-# radiance_truth.awk: expected values in double for the rays on the standard input (lines with the columns of
-# skyvert-reference and its four radiances behind them); -v ini=FILE. One C row per ray:
-# altitude, sun, view, azimuth, {converged radiance}, {transmittance}, {keller 16x16}, {uniform 64x16}.
+# radiance_truth.awk: expected values in double as C rows, for radiance_truth.sh. Lines on the standard input are
+# those of skyvert-reference --ground none with those of --ground lit behind them; -v ini=FILE.
 # Transmittance and the two midpoint rules are worked out here by plain sums over the profiles: no closed forms.
 function parse(   line, section, key, value) {
     while ((getline line < ini) > 0) {
@@ -42,7 +41,6 @@ function tau(band, col) { return ray[band] * col[1] + aerx[band] * col[2] + ozo[
 # Fine steps outward from the densest point of the ray.
 function transmittance(out,   col, b, t) {
     col[1] = col[2] = col[3] = 0
-    if (L > 0 && hit) steps(0, rm + L, 0, 1, 1, col)
     if (L > 0 && hit) steps(0, -(rm + L), L, 3000, 3, col)
     else if (L > 0 && rm < 0) {
         t = altitude(h0, rm, -rm)
@@ -64,18 +62,9 @@ function rule(n, m, view_power, depth_power, out,   i, b, a, c, s, h, r, rms, w,
             out[b] += w * (ray[b] * exp(-h / Hr) * pr + aer[b] * exp(-h / Ha) * pm) * exp(-tau(b, col))
     }
 }
-function braces(x) { return sprintf("{%.8gf, %.8gf, %.8gf, %.8gf}", x[1], x[2], x[3], x[4]) }
 # A float literal needs a point or an exponent.
-function literals(text) { return gensub_point(text) }
-function gensub_point(text,   parts, n, i, line, x) {
-    n = split(text, parts, ", "); line = ""
-    for (i = 1; i <= n; i++) {
-        x = parts[i]
-        if (x !~ /[.e]/) sub(/f/, ".0f", x)
-        line = line (i > 1 ? ", " : "") x
-    }
-    return line
-}
+function literal(x) { x = sprintf("%.8g", x); return (x ~ /[.e]/ ? x : x ".0") "f" }
+function braces(x) { return "{" literal(x[1]) ", " literal(x[2]) ", " literal(x[3]) ", " literal(x[4]) "}" }
 BEGIN { FS = ","; pi = atan2(0, -1); parse() }
 NR > 1 {
     h0 = $1 + 0; mu = cosine($3); mus = cosine($2)
@@ -89,10 +78,11 @@ NR > 1 {
     }
     hit = rm < 0 && discriminant(h0, rm, 0) > 0
     L = !enters ? 0 : hit ? inwards(h0, rm, 0) : outwards(h0, rm, top)
-    for (b = 1; b <= 4; b++) converged[b] = $(b + 4)
+    for (b = 1; b <= 4; b++) { converged[b] = $(b + 4); lit[b] = $(b + 12) }
     transmittance(through); rule(16, 16, 3, 2, keller); rule(64, 16, 1, 1, uniform)
-    print "    {" literals($1 "f, " $2 "f, " $3 "f, " $4 "f") ", " literals(braces(converged)) ","
-    print "     " literals(braces(through)) ","
-    print "     " literals(braces(keller)) ","
-    print "     " literals(braces(uniform)) "},"
+    print "    {" literal($1) ", " literal($2) ", " literal($3) ", " literal($4) ", " braces(converged) ","
+    print "     " braces(lit) ","
+    print "     " braces(through) ","
+    print "     " braces(keller) ","
+    print "     " braces(uniform) "},"
 }

@@ -62,7 +62,10 @@ altitude_km,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg
 Q
 : >"$work/rows"
 for air in br16 br17o; do
-    "$B/skyvert-reference" --atmosphere tools/bench/$air.ini <"$work/rays.csv" >"$work/answers" || exit 1
+    for ground in none lit; do
+        "$B/skyvert-reference" --atmosphere tools/bench/$air.ini --ground $ground <"$work/rays.csv" >"$work/$ground" || exit 1
+    done
+    paste -d, "$work/none" "$work/lit" >"$work/answers"
     { echo "static const truth_row truth_$air[TRUTH_RAYS] = {"
       LC_ALL=C awk -v ini=tools/bench/$air.ini -f tests/api/radiance_truth.awk "$work/answers" || exit 1
       echo "};"; } >>"$work/rows"
@@ -76,10 +79,11 @@ done
 /// Angles of skyvert eval; azimuth 0 is toward the sun. Four bands each.
 typedef struct truth_row {
     float altitude_km, sun_deg, view_deg, azimuth_deg;
-    float radiance[4];      ///< converged single scattering, no light of the ground
+    float radiance[4]; ///< converged single scattering, no light of the ground
+    float lit[4];      ///< with it
     float transmittance[4];
-    float keller[4];        ///< what the rule by Keller gives with 16x16 samples
-    float uniform[4];       ///< equal steps, 64 and 16
+    float keller[4];  ///< what the rule by Keller gives with 16x16 samples
+    float uniform[4]; ///< equal steps, 64 and 16
 } truth_row;
 
 #define TRUTH_RAYS $(($(wc -l <"$work/rays.csv") - 1))
