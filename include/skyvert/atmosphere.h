@@ -99,6 +99,8 @@ skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, 
 #define SKV_COLUMN_TANGENTS 64
 /// Rows of a tabulated density.
 #define SKV_DENSITY_ROWS 192
+/// Most corners of densities that are taken care of.
+#define SKV_MODEL_BREAKS 8
 
 /// Derived: how one species' density and column are found (src/core/profile.h, column.h).
 typedef struct skv_species {
@@ -133,6 +135,8 @@ typedef struct skv_model {
     float aerosol_extinction_per_km[4];
     float ozone_per_km[4];
     skv_species species[3]; ///< Rayleigh, aerosol, ozone
+    int32_t breaks;         ///< altitudes where a scattering density has a corner: legs are cut there
+    float break_km[SKV_MODEL_BREAKS];
     int32_t aerosol_phase;
     float aerosol_g;
     int32_t chapman_valid; ///< 0: a scale height is over 1/100 of the radius; depth is integrated instead

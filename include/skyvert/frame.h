@@ -81,6 +81,9 @@ typedef struct skv_frame_limits {
     float exp2_floor; ///< -126
 } skv_frame_limits;
 
+/// Most altitudes at which legs are cut.
+#define SKV_FRAME_BREAKS 12
+
 /// Derived, constant after skv_frame_begin(); points to the model, which must outlive it.
 typedef struct skv_frame {
     uint32_t layout;
@@ -95,9 +98,13 @@ typedef struct skv_frame {
     float top_km;    ///< of the air above the ground
     skv_frame_limits limits;
     skv_frame_species species[3];
-    float inner_scale_km; ///< of the exponential map of the inner depth
-    float map_scale;      ///< largest scale height over 8 km
-    float map_per_km[2];  ///< extinction that shortens the map of gauss-exp, per unit of relative density
+    int32_t breaks;                   ///< altitudes above the ground at which legs are cut, ascending
+    float break_km[SKV_FRAME_BREAKS]; ///< (src/core/slices.h)
+    uint32_t break_inbound;           ///< bit i: only on legs towards the observer
+    float fog_per_km;                 ///< extinction at the observer where that is fog, else 0
+    float inner_scale_km;             ///< of the exponential map of the inner depth
+    float map_scale;                  ///< largest scale height over 8 km
+    float map_per_km[2];              ///< extinction that shortens the map of gauss-exp, per unit of relative density
     /// Per unit of relative density (exponential species: of that at the ground); extinction times log2(e).
     float rayleigh_per_km[4];
     float aerosol_per_km[4];

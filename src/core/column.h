@@ -141,14 +141,12 @@ static SKV_NOINLINE void skv_columns_inner_up(const skv_frame *frame, unsigned b
     const int want = frame->quality.depth_samples, m = want < 2 ? 2 : want > 16 ? 16 : want;
     const float *node = skv_gauss_node + skv_gauss_offset(m), *weight = skv_gauss_weight + skv_gauss_offset(m);
     const float radius = frame->radius_km, hs = frame->inner_scale_km;
-    skv_lanes l_km, k, e0, rm, top;
+    skv_lanes l_km, k;
     SKV_EACH_LANE(l) {
         const float c = mu->v[l];
-        rm.v[l] = p->r_km.v[l] * c;
-        top.v[l] = skv_to_top(radius, frame->top_km, p->h_km.v[l], rm.v[l]);
+        const float top = skv_to_top(radius, frame->top_km, p->h_km.v[l], p->r_km.v[l] * c);
         l_km.v[l] = hs / (0.5f * c + skv_root(0.25f * c * c + 0.5f * hs * p->inv_r.v[l]));
-        k.v[l] = skv_log1pf(top.v[l] / l_km.v[l]);
-        e0.v[l] = p->h_km.v[l] * (2.0f * radius + p->h_km.v[l]);
+        k.v[l] = skv_log1pf(top / l_km.v[l]);
     }
     for (int s = 0; s < SKV_SPECIES; s++)
         SKV_EACH_LANE(l) out->of[s].v[l] = 0.0f;
@@ -158,9 +156,9 @@ static SKV_NOINLINE void skv_columns_inner_up(const skv_frame *frame, unsigned b
         skv_lanes ds, eq;
         SKV_EACH_LANE(l) {
             const float e = skv_exp2f(k.v[l] * 1.44269504f * node[i]);
-            const float s = skv_minf(l_km.v[l] * (e - 1.0f), top.v[l]);
+            const float s = l_km.v[l] * (e - 1.0f), h = p->h_km.v[l];
             ds.v[l] = weight[i] * k.v[l] * l_km.v[l] * e;
-            eq.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            eq.v[l] = skv_maxf(h * (2.0f * radius + h) + s * (2.0f * p->r_km.v[l] * mu->v[l] + s), 0.0f);
         }
         skv_points_at(frame, has, &eq, &q);
         skv_densities(frame, has, &q, &rho);

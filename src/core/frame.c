@@ -112,6 +112,43 @@ static void skv_frame_coefficients(skv_frame *f) {
     f->inner_scale_km = hi > 0.0f ? skv_sqrtf(lo * hi) : 8.0f;
 }
 
+/// Keeps the altitudes ascending.
+static void skv_frame_break(skv_frame *f, float z_km, uint32_t inbound) {
+    if (!(z_km > 0.0f && z_km < f->top_km) || f->breaks == SKV_FRAME_BREAKS)
+        return;
+    int i = f->breaks++;
+    for (; i > 0 && f->break_km[i - 1] > z_km; i--) {
+        f->break_km[i] = f->break_km[i - 1];
+        const uint32_t bit = f->break_inbound >> (i - 1) & 1u;
+        f->break_inbound = (f->break_inbound & ~(1u << i)) | bit << i;
+    }
+    f->break_km[i] = z_km;
+    f->break_inbound = (f->break_inbound & ~(1u << i)) | inbound << i;
+}
+
+/// Where legs are cut (slices.h): corners; the upper end of a thin layer; where opaque air ends, seen from above.
+static void skv_frame_breaks(skv_frame *f) {
+    float fog = 0.0f;
+    for (int i = 0; i < f->model->breaks; i++)
+        skv_frame_break(f, f->model->break_km[i] - f->ground_km, 0);
+    for (int s = 0; s < 2; s++) {
+        const skv_species *sp = &f->model->species[s];
+        if (f->species[s].kind == SKV_PROFILE_NONE)
+            continue;
+        const float scale = sp->scale_height_km, dense = f->map_per_km[s];
+        // Optical depth of half the horizontal ray at the ground.
+        const float half = dense * skv_sqrtf(1.5707963f * f->radius_km * scale);
+        if (sp->column == 0 && scale < 0.0625f * f->map_scale * 8.0f)
+            skv_frame_break(f, 6.0f * scale, 0);
+        if (half > 5.0f)
+            skv_frame_break(f, scale * skv_logf(half), 1);
+        if (half > 30.0f)
+            skv_frame_break(f, 0.5f * scale * skv_logf(half), 1);
+        fog += dense * skv_exp2f(-f->height_km * sp->inv_scale_log2e);
+    }
+    f->fog_per_km = fog > 0.1f ? fog : 0.0f;
+}
+
 static uint32_t skv_frame_bits(const skv_frame *f) {
     uint32_t has = skv_bands(f->model) == 4 ? SKV_HAS_FOUR : 0;
     for (int s = 0; s < SKV_SPECIES; s++)
@@ -134,7 +171,12 @@ static skv_status skv_frame_adjust(skv_frame *f) {
         lowest = skv_minf(lowest, f->light[i].mu_s);
     if (q->rule == SKV_GAUSS_EXP && q->samples == 4 && (f->height_km > 20.0f || lowest < 0.0349f))
         q->samples = 6;
-    if (q->depth == SKV_DEPTH_BY_CHAPMAN && !f->model->chapman_valid) {
+    // The cut at the top is a small correction of the closed form only where little air is above it.
+    int closed = f->model->chapman_valid;
+    for (int s = 0; s < 2; s++)
+        if (f->model->species[s].kind != SKV_PROFILE_NONE && f->model->species[s].column == 0)
+            closed &= f->top_km * f->model->species[s].inv_scale_log2e > 5.6f;
+    if (q->depth == SKV_DEPTH_BY_CHAPMAN && !closed && (SKV_DEPTH_INNER || !f->model->chapman_valid)) {
         q->depth = SKV_DEPTH_BY_INNER;
         q->depth_samples = 16;
         return SKV_DEPTH_INNER ? SKV_OK : SKV_ERR_UNSUPPORTED;
@@ -173,6 +215,7 @@ skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_q
     if (status != SKV_OK)
         return status;
     skv_frame_coefficients(&f);
+    skv_frame_breaks(&f);
     f.has = skv_frame_bits(&f);
     f.layout = SKV_LAYOUT;
     *frame = f;

@@ -178,6 +178,23 @@ static void skv_tables(skv_model *m, const skv_atmosphere *a) {
     (void)m;
 }
 
+/// Corners of a table: where its slope changes by a good part of its largest density within a step.
+static void skv_breaks(skv_model *m, const skv_profile *p) {
+    if (p->kind != SKV_PROFILE_TABLE)
+        return;
+    const float *h = p->table_altitude_km, *d = p->table_density;
+    float most = 0.0f;
+    for (uint32_t i = 0; i < p->table_rows; i++)
+        most = skv_maxf(most, d[i]);
+    for (uint32_t i = 0; i < p->table_rows && m->breaks < SKV_MODEL_BREAKS; i++) {
+        const float below = i > 0 ? h[i] - h[i - 1] : 1e9f, above = i + 1 < p->table_rows ? h[i + 1] - h[i] : 1e9f;
+        const float s0 = i > 0 ? (d[i] - d[i - 1]) / below : 0.0f;
+        const float s1 = i + 1 < p->table_rows ? (d[i + 1] - d[i]) / above : 0.0f;
+        if (h[i] > 0.0f && h[i] < m->top_km && skv_fabsf(s1 - s0) * skv_minf(below, above) > 0.15f * most)
+            m->break_km[m->breaks++] = h[i];
+    }
+}
+
 skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
     if (!model || !a)
         return SKV_ERR_NULL;
@@ -204,8 +221,11 @@ skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
     skv_coefficients(model, a);
     model->chapman_valid = 1;
     for (int s = 0; s < 2; s++)
-        if (model->species[s].kind != SKV_PROFILE_NONE && model->species[s].scale_height_km * 100.0f > a->radius_km)
+        if (model->species[s].kind != SKV_PROFILE_NONE && model->species[s].column == 0 &&
+            model->species[s].scale_height_km * 100.0f > a->radius_km)
             model->chapman_valid = 0;
+    skv_breaks(model, &a->aerosol);
+    skv_breaks(model, &a->rayleigh);
     skv_tables(model, a);
     model->layout = SKV_LAYOUT;
     return SKV_OK;

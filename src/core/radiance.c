@@ -6,6 +6,7 @@
 #include "core/gauss.h"
 #include "core/midpoint.h"
 #include "core/shadow.h"
+#include "core/slices.h"
 
 /// Written one by one: a call of memset() costs more than these few bytes.
 SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t n) {
@@ -126,6 +127,27 @@ SKV_INLINE void skv_queue_push(const skv_frame *frame, int light, const skv_legs
     }
 }
 
+/// A lit stretch [a, b] of each leg, slice by slice; a and b are used up.
+SKV_INLINE void skv_queue_slices(const skv_frame *frame, int light, skv_legs *leg, unsigned count, skv_queue *queue) {
+    const int slices = skv_slices(frame);
+    skv_lanes from, to, last;
+    if (slices == 1) {
+        skv_queue_push(frame, light, leg, count, queue);
+        return;
+    }
+    SKV_EACH_LANE(l) from.v[l] = leg->a.v[l];
+    last = leg->b;
+    for (int i = 0; i < slices; i++) {
+        skv_slice_end(frame, leg, i, &from, &to);
+        SKV_EACH_LANE(l) {
+            leg->a.v[l] = from.v[l];
+            leg->b.v[l] = skv_minf(to.v[l], last.v[l]);
+            from.v[l] = to.v[l];
+        }
+        skv_queue_push(frame, light, leg, count, queue);
+    }
+}
+
 SKV_INLINE int skv_legs_full(const skv_legs *leg, int count) {
     uint32_t signs = 0; // of a - b: all negative where every lane has something
     SKV_EACH_LANE(l) signs |= ~skv_bits(leg->a.v[l] - leg->b.v[l]);
@@ -149,15 +171,16 @@ static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t
             skv_legs_outputs(sky, bands, first, count, leg.out);
             what = skv_legs_make(frame, light, n, first, rays, part, &leg, &resume);
             seen |= what;
-            if ((what & SKV_LEGS_SPLIT) == 0 && queue.count == 0 && skv_legs_full(&leg, count)) {
+            const int whole = (what & SKV_LEGS_SPLIT) == 0 && skv_slices(frame) == 1;
+            if (whole && queue.count == 0 && skv_legs_full(&leg, count)) {
                 skv_gauss_legs(frame, &leg, SKV_LANES, frame->light[light].irradiance);
                 continue;
             }
-            skv_queue_push(frame, light, &leg, (unsigned)count, &queue);
+            skv_queue_slices(frame, light, &leg, (unsigned)count, &queue);
             if ((what & SKV_LEGS_SPLIT) != 0) {
                 leg.a = resume;
                 leg.b = leg.end;
-                skv_queue_push(frame, light, &leg, (unsigned)count, &queue);
+                skv_queue_slices(frame, light, &leg, (unsigned)count, &queue);
             }
         }
     }
