@@ -19,22 +19,23 @@ SKV_INLINE int skv_slices(const skv_frame *frame) {
     return frame->breaks + (frame->fog_per_km > 0.0f ? 2 : 1);
 }
 
-/// Far end of slice i: distance from the leg's origin to the altitude of break i; `from`, the near end, where that does
-/// not apply to the lane.
+/// Far end of slice i: what fog hides comes first, then each break's altitude as a distance from the leg's origin;
+/// `from`, the near end, where a cut does not apply to the lane.
 SKV_INLINE void skv_slice_end(const skv_frame *frame, const skv_legs *leg, int i, const skv_lanes *from,
                               skv_lanes *to) {
-    if (i < frame->breaks) {
-        const float z = frame->break_km[i], radius = frame->radius_km;
-        const float inbound = (frame->break_inbound >> i & 1u) != 0 ? 0.0f : -2.0f;
-        SKV_EACH_LANE(l) {
-            const float s = skv_to_top(radius, z, leg->h_km.v[l], leg->rm.v[l]);
-            to->v[l] = leg->sigma.v[l] > inbound ? skv_maxf(s, from->v[l]) : from->v[l];
-        }
-    } else if (i == frame->breaks && frame->fog_per_km > 0.0f) {
+    const int fog = frame->fog_per_km > 0.0f, at = i - fog;
+    if (at < 0) {
         const float near = SKV_FOG_NEAR / frame->fog_per_km, least = SKV_FOG_FROM / frame->fog_per_km;
         SKV_EACH_LANE(l) {
             const int cut = (leg->sigma.v[l] > 0.0f) & (leg->end.v[l] > least);
             to->v[l] = cut ? skv_maxf(leg->end.v[l] - near, from->v[l]) : from->v[l];
+        }
+    } else if (at < frame->breaks) {
+        const float z = frame->break_km[at], radius = frame->radius_km;
+        const float inbound = (frame->break_inbound >> at & 1u) != 0 ? 0.0f : -2.0f;
+        SKV_EACH_LANE(l) {
+            const float s = skv_to_top(radius, z, leg->h_km.v[l], leg->rm.v[l]);
+            to->v[l] = leg->sigma.v[l] > inbound ? skv_maxf(s, from->v[l]) : from->v[l];
         }
     } else {
         SKV_EACH_LANE(l) to->v[l] = SKV_FAR_KM;
