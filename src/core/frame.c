@@ -140,13 +140,14 @@ static void skv_frame_breaks(skv_frame *f) {
         const float half = dense * skv_sqrtf(1.5707963f * f->radius_km * scale);
         if (sp->column == 0 && scale < 0.0625f * f->map_scale * 8.0f)
             skv_frame_break(f, 6.0f * scale, 0);
-        if (half > 5.0f)
+        // Rayleigh's layer is as thick as the map expects: it needs the cut later.
+        if (half > (s == SKV_RAYLEIGH ? 10.0f : 5.0f))
             skv_frame_break(f, scale * skv_logf(half), 1);
         if (half > 30.0f)
             skv_frame_break(f, 0.5f * scale * skv_logf(half), 1);
         fog += dense * skv_exp2f(-f->height_km * sp->inv_scale_log2e);
     }
-    f->fog_per_km = fog > 0.1f ? fog : 0.0f;
+    f->fog_per_km = fog * f->map_scale > 0.1f ? fog : 0.0f;
 }
 
 static uint32_t skv_frame_bits(const skv_frame *f) {
@@ -169,7 +170,7 @@ static skv_status skv_frame_adjust(skv_frame *f) {
     float lowest = 1.0f;
     for (int32_t i = 0; i < f->lights; i++)
         lowest = skv_minf(lowest, f->light[i].mu_s);
-    if (q->rule == SKV_GAUSS_EXP && q->samples == 4 && (f->height_km > 20.0f || lowest < 0.0349f))
+    if (q->rule == SKV_GAUSS_EXP && q->samples == 4 && (f->height_km > 20.0f * f->map_scale || lowest < 0.0349f))
         q->samples = 6;
     // The cut at the top is a small correction of the closed form only where little air is above it.
     int closed = f->model->chapman_valid;
@@ -210,11 +211,12 @@ skv_status skv_frame_begin(skv_frame *frame, const skv_model *model, const skv_q
     f.height_km = skv_maxf(observer_km - ground_km, 0.0f);
     f.top_km = model->top_km - ground_km;
     status = skv_frame_lights(&f, lights, n_lights);
-    if (status == SKV_OK)
-        status = skv_frame_adjust(&f);
     if (status != SKV_OK)
         return status;
     skv_frame_coefficients(&f);
+    status = skv_frame_adjust(&f);
+    if (status != SKV_OK)
+        return status;
     skv_frame_breaks(&f);
     f.has = skv_frame_bits(&f);
     f.layout = SKV_LAYOUT;

@@ -74,10 +74,9 @@ typedef struct skv_samples {
     skv_lanes e;       ///< r^2 - R^2
     skv_lanes rm, rms; ///< r mu along the leg, r mu_s
     skv_points p;
-    skv_columns c; ///< light -> sample -> observer
-#if SKV_TERM_OZONE
-    skv_lanes mu_view, mu_light, tangent_km;
-#endif
+    skv_columns c;     ///< light -> sample -> observer
+    skv_lanes mu_view; ///< cosines of the zenith angles of view and light, and the light's tangent altitude: for tables
+    skv_lanes mu_light, tangent_km;
 } skv_samples;
 
 /// Columns of two exponentials in closed form, in one pass.
@@ -155,14 +154,14 @@ SKV_INLINE void skv_samples_ozone(const skv_frame *frame, unsigned has, const sk
 
 /// Columns of any profiles by any backend.
 SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
-    skv_lanes mu, sin_view;
+    skv_lanes *const mu = &q->mu_view, *const sin_view = &q->mu_light;
     skv_columns view;
     skv_points_at(frame, has, &q->e, &q->p);
     SKV_EACH_LANE(l) {
-        mu.v[l] = skv_clampf(q->rm.v[l] * q->p.inv_r.v[l], 0.0f, 1.0f);
-        sin_view.v[l] = skv_minf(leg->p_km.v[l] * q->p.inv_r.v[l], 1.0f);
+        mu->v[l] = skv_clampf(q->rm.v[l] * q->p.inv_r.v[l], 0.0f, 1.0f);
+        sin_view->v[l] = skv_minf(leg->p_km.v[l] * q->p.inv_r.v[l], 1.0f);
     }
-    skv_columns_up(frame, has, &q->p, &mu, &sin_view, &view);
+    skv_columns_up(frame, has, &q->p, mu, sin_view, &view);
     skv_columns_light(frame, has, &q->p, &q->rms, &q->c);
     for (int s = 0; s < SKV_SPECIES; s++)
         if (SKV_PRESENT(has, s))

@@ -129,22 +129,15 @@ SKV_INLINE void skv_queue_push(const skv_frame *frame, int light, const skv_legs
 
 /// A lit stretch [a, b] of each leg, slice by slice; a and b are used up.
 SKV_INLINE void skv_queue_slices(const skv_frame *frame, int light, skv_legs *leg, unsigned count, skv_queue *queue) {
-    const int slices = skv_slices(frame);
-    skv_lanes from, to, last;
-    if (slices == 1) {
-        skv_queue_push(frame, light, leg, count, queue);
-        return;
-    }
-    SKV_EACH_LANE(l) from.v[l] = leg->a.v[l];
-    last = leg->b;
+    const int slices = skv_slices(frame, leg);
+    const skv_lanes last = leg->b;
     for (int i = 0; i < slices; i++) {
-        skv_slice_end(frame, leg, i, &from, &to);
-        SKV_EACH_LANE(l) {
-            leg->a.v[l] = from.v[l];
-            leg->b.v[l] = skv_minf(to.v[l], last.v[l]);
-            from.v[l] = to.v[l];
-        }
+        if (i < slices - 1)
+            skv_slice_end(frame, leg, i, &last);
+        else
+            leg->b = last;
         skv_queue_push(frame, light, leg, count, queue);
+        leg->a = leg->b;
     }
 }
 
@@ -171,7 +164,7 @@ static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t
             skv_legs_outputs(sky, bands, first, count, leg.out);
             what = skv_legs_make(frame, light, n, first, rays, part, &leg, &resume);
             seen |= what;
-            const int whole = (what & SKV_LEGS_SPLIT) == 0 && skv_slices(frame) == 1;
+            const int whole = (what & SKV_LEGS_SPLIT) == 0 && skv_slices(frame, &leg) == 1;
             if (whole && queue.count == 0 && skv_legs_full(&leg, count)) {
                 skv_gauss_legs(frame, &leg, SKV_LANES, frame->light[light].irradiance);
                 continue;

@@ -14,31 +14,37 @@
 #define SKV_FOG_NEAR 6.0f
 #define SKV_FOG_FROM 12.0f
 
-/// Number of slices of every leg; most are empty for most lanes.
-SKV_INLINE int skv_slices(const skv_frame *frame) {
-    return frame->breaks + (frame->fog_per_km > 0.0f ? 2 : 1);
+/// Number of slices of these legs; most are empty for most lanes. 1 where every cut is for legs towards the observer
+/// and none of these is.
+SKV_INLINE int skv_slices(const skv_frame *frame, const skv_legs *leg) {
+    const int cuts = frame->breaks + (frame->fog_per_km > 0.0f);
+    uint32_t outbound = ~0u;
+    if (cuts == 0)
+        return 1;
+    SKV_EACH_LANE(l) outbound &= skv_bits(leg->sigma.v[l]);
+    const int none = (outbound & 0x80000000u) != 0 && frame->break_inbound + 1u == 1u << frame->breaks;
+    return none ? 1 : cuts + 1;
 }
 
-/// Far end of slice i: what fog hides comes first, then each break's altitude as a distance from the leg's origin;
-/// `from`, the near end, where a cut does not apply to the lane.
-SKV_INLINE void skv_slice_end(const skv_frame *frame, const skv_legs *leg, int i, const skv_lanes *from,
-                              skv_lanes *to) {
+/// Far end b of slice i but the last, whose near end is a: what fog hides comes first, then each break's altitude as a
+/// distance from the leg's origin; a, where a cut does not apply to the lane, and never beyond `last`.
+SKV_INLINE void skv_slice_end(const skv_frame *frame, skv_legs *leg, int i, const skv_lanes *last) {
     const int fog = frame->fog_per_km > 0.0f, at = i - fog;
     if (at < 0) {
         const float near = SKV_FOG_NEAR / frame->fog_per_km, least = SKV_FOG_FROM / frame->fog_per_km;
         SKV_EACH_LANE(l) {
             const int cut = (leg->sigma.v[l] > 0.0f) & (leg->end.v[l] > least);
-            to->v[l] = cut ? skv_maxf(leg->end.v[l] - near, from->v[l]) : from->v[l];
+            const float s = cut ? leg->end.v[l] - near : 0.0f;
+            leg->b.v[l] = skv_minf(skv_maxf(s, leg->a.v[l]), last->v[l]);
         }
-    } else if (at < frame->breaks) {
-        const float z = frame->break_km[at], radius = frame->radius_km;
-        const float inbound = (frame->break_inbound >> at & 1u) != 0 ? 0.0f : -2.0f;
-        SKV_EACH_LANE(l) {
-            const float s = skv_to_top(radius, z, leg->h_km.v[l], leg->rm.v[l]);
-            to->v[l] = leg->sigma.v[l] > inbound ? skv_maxf(s, from->v[l]) : from->v[l];
-        }
-    } else {
-        SKV_EACH_LANE(l) to->v[l] = SKV_FAR_KM;
+        return;
+    }
+    const float z = frame->break_km[at], radius = frame->radius_km;
+    const float inbound = (frame->break_inbound >> at & 1u) != 0 ? 0.0f : -2.0f;
+    SKV_EACH_LANE(l) {
+        const float to = skv_to_top(radius, z, leg->h_km.v[l], leg->rm.v[l]);
+        const float s = leg->sigma.v[l] > inbound ? to : 0.0f;
+        leg->b.v[l] = skv_minf(skv_maxf(s, leg->a.v[l]), last->v[l]);
     }
 }
 
