@@ -54,7 +54,7 @@ TEST_SCRIPT :=
 TEST_FULL_BIN :=
 TEST_FULL_SCRIPT :=
 DEPS_RUN    := gcc g++ make pkg-config
-DEPS_TEST   := clang libcmocka-dev valgrind clang-format clang-tidy cppcheck
+DEPS_TEST   := clang libclang-rt-14-dev libcmocka-dev valgrind clang-format clang-tidy cppcheck
 include $(sort $(wildcard port/*/build.mk)) $(sort $(wildcard tools/*/build.mk)) $(sort $(wildcard tests/*/build.mk))
 
 .PHONY: all core help deps-run deps-test run test test-full bench lint format fit-check clean left-out
@@ -91,11 +91,16 @@ run: deps-run ## the main job: the sample flight's skies into out/
 
 test: deps-test ## all tests (minutes)
 	@$(MAKE) --no-print-directory DEPS=no all test-build
-	@B=$(B) CC="$(CC)" MAKE="$(MAKE)" $(BASH) tests/run.sh $(TEST_BIN) $(TEST_SCRIPT)
+	@$(MAKE) --no-print-directory DEPS=no test-run
 
 test-full: deps-test ## all tests and the long ones
 	@$(MAKE) --no-print-directory DEPS=no all test-build test-full-build
-	@B=$(B) CC="$(CC)" MAKE="$(MAKE)" $(BASH) tests/run.sh $(TEST_BIN) $(TEST_SCRIPT) $(TEST_FULL_BIN) $(TEST_FULL_SCRIPT)
+	@$(MAKE) --no-print-directory DEPS=no FULL=yes test-run
+
+.PHONY: test-run
+test-run:
+	@B=$(B) CC="$(CC)" MAKE=make $(BASH) tests/run.sh $(TEST_BIN) $(TEST_SCRIPT) \
+		$(if $(FULL),$(TEST_FULL_BIN) $(TEST_FULL_SCRIPT))
 
 .PHONY: test-build test-full-build
 test-build: $(TEST_BIN)
