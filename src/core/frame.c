@@ -141,6 +141,9 @@ static void skv_frame_breaks(skv_frame *f) {
         if (sp->column == 0 && scale < 0.0625f * f->map_scale * 8.0f)
             skv_frame_break(f, 6.0f * scale, 0);
         // Rayleigh's layer is as thick as the map expects: it needs the cut later.
+        // From above the flight levels, rays through the dense half of the air cross this altitude.
+        if (s == SKV_RAYLEIGH && half > 2.0f && half <= 10.0f && f->height_km > 2.4f * scale)
+            skv_frame_break(f, 1.5f * scale, 1);
         if (half > (s == SKV_RAYLEIGH ? 10.0f : 5.0f))
             skv_frame_break(f, scale * skv_logf(half), 1);
         if (half > 30.0f)

@@ -1,7 +1,7 @@
-/// Where one map does not fit a whole leg it is cut into slices: at corners of a tabulated density; at the upper end of a
-/// layer that is thin against the map; and, on legs towards the observer through opaque air, whose map crowds at a far
-/// end that nobody sees, where a horizontal ray has an optical depth of about 1 and, from within fog, at the optical
-/// depth that can be seen.
+/// Where one map does not fit a whole leg it is cut into slices: at corners of a tabulated density; at the upper end of
+/// a layer that is thin against the map; and, on legs towards the observer through opaque air, whose map crowds at a
+/// far end that nobody sees, where a horizontal ray has an optical depth of about 1 and, from within fog, at the
+/// optical depth that can be seen.
 #ifndef SKV_CORE_SLICES_H
 #define SKV_CORE_SLICES_H
 
