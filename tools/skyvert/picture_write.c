@@ -12,8 +12,6 @@
 #include "port/png/skv_png.h"
 #endif
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 static const char *projection_words(const projection *map) {
     switch (map->kind) {
     case PROJECTION_FISHEYE:
@@ -25,6 +23,9 @@ static const char *projection_words(const projection *map) {
     }
 }
 
+#ifdef SKV_HAVE_EXR
+static const double degree = 3.14159265358979323846 / 180.0;
+
 static void describe(const picture *image, const scene *view, char *text, size_t size) {
     char air[400];
     snprintf(text, size, "%s; %s. Linear BT.709, (1,1,1) = %g cd/m2; the sun's disc is not drawn.",
@@ -32,7 +33,6 @@ static void describe(const picture *image, const scene *view, char *text, size_t
              (double)SKV_WHITE_LUMINANCE);
 }
 
-#ifdef SKV_HAVE_EXR
 /// Zone time at sea: whole hours by longitude. @return what to add to it to get UTC, seconds
 static double local_time(const moment *now, char text[32]) {
     const double lon = now->has_position ? remainder(now->at.lon_deg, 360.0) : 0.0;
