@@ -99,7 +99,7 @@ test-full: deps-test ## all tests and the long ones
 
 .PHONY: test-run
 test-run:
-	@B=$(B) CC="$(CC)" MAKE=make $(BASH) tests/run.sh $(TEST_BIN) $(TEST_SCRIPT) \
+	@B=$(B) CC="$(CC)" MAKE=make LIMIT=$(if $(FULL),3600,600) $(BASH) tests/run.sh $(TEST_BIN) $(TEST_SCRIPT) \
 		$(if $(FULL),$(TEST_FULL_BIN) $(TEST_FULL_SCRIPT))
 
 .PHONY: test-build test-full-build

@@ -3,12 +3,15 @@
 # Exit status of a test: 0 = passed, 77 = skipped (its last line says what and why), anything else = failed.
 set -u
 export B=${B:-build}
+limit=${LIMIT:-600} # seconds a test may take
 pass=0 fail=0 skip=0 failed=()
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 for t in "$@"; do
     start=$(date +%s.%N)
-    case "$t" in *.sh) bash "$t" ;; *) "$t" ;; esac >"$log" 2>&1 </dev/null
+    run=("$t")
+    case "$t" in *.sh) run=(bash "$t") ;; esac
+    timeout --foreground -k 10 "$limit" "${run[@]}" >"$log" 2>&1 </dev/null
     rc=$?
     took=$(awk -v a="$start" -v b="$(date +%s.%N)" 'BEGIN{printf "%.1f", b-a}')
     case $rc in

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -211,6 +212,7 @@ static void test_output_signal(void **state) {
     assert_int_equal(pipe(ready), 0);
     const pid_t child = fork();
     if (child == 0) {
+        alarm(30);
         output first, second;
         if (output_open(&first, path) != 0 || output_reserve(&second, path) != 0) // one name twice at a time
             _exit(9);
@@ -232,6 +234,7 @@ static void test_output_signal(void **state) {
 
 static int make_folder(void **state) {
     (void)state;
+    signal(SIGINT, SIG_DFL); // a shell's background jobs inherit that it is ignored
     const char *const place = getenv("TMPDIR");
     snprintf(folder, sizeof folder, "%.60s/skyvert-test-XXXXXX", place ? place : P_tmpdir);
     return mkdtemp(folder) ? 0 : -1;
