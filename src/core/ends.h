@@ -2,6 +2,7 @@
 #ifndef SKV_CORE_ENDS_H
 #define SKV_CORE_ENDS_H
 
+#include "core/cells.h"
 #include "core/rays.h"
 
 /// Columns from the observer to the end of the ray.
@@ -58,12 +59,14 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
     const float radius = frame->radius_km, rms0 = (radius + frame->height_km) * frame->light[light].mu_s;
     skv_block_light toward;
     skv_points g;
-    skv_lanes rms, h;
+    skv_lanes rms, h, mu_s;
     skv_columns c;
     skv_block_toward(frame, has, light, block, &toward);
     SKV_EACH_LANE(l) {
         h.v[l] = 0.0f;
-        rms.v[l] = skv_clampf(rms0 + block->leg[0].from_km.v[l] * toward.nu.v[l], 0.0f, radius);
+        const float along = rms0 + block->leg[0].from_km.v[l] * toward.nu.v[l];
+        mu_s.v[l] = along / radius;
+        rms.v[l] = skv_clampf(along, 0.0f, radius);
     }
     skv_points_above(frame, has, &h, &g);
     skv_columns_light(frame, has, &g, &rms, &c);
@@ -74,9 +77,14 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
         if (!(block->meets_ground.v[l] > 0.0f))
             continue;
         float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, first + (size_t)l);
-        for (size_t b = 0; b < bands; b++)
+        for (size_t b = 0; b < bands && !frame->diffuse.only; b++)
             out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] * (rms.v[l] / radius) *
                       skv_exp2f(-skv_optical_depth_log2e(frame, has, &c, (int)b, l));
+        if (frame->diffuse.table)
+            for (size_t b = 0; b < bands; b++)
+                out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] *
+                          skv_exp2f(skv_ground_log2(frame->diffuse.table, mu_s.v[l], (int)b) -
+                                    skv_optical_depth_log2e(frame, has, view, (int)b, l));
     }
 }
 #endif

@@ -44,6 +44,8 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
             leg->k.of[s] = k->of[s];
 }
 
+#include "core/diffuse.h"
+
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
 /// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
 /// few rays have, does the geometry again.
@@ -205,10 +207,10 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
     if (sky->transmittance)
         return SKV_ERR_UNSUPPORTED;
 #endif
-    if (frame->lights == 0 || frame->quality.rule != SKV_GAUSS_EXP)
+    if (frame->lights == 0 || frame->quality.rule != SKV_GAUSS_EXP || frame->diffuse.only)
         skv_clear(sky, bands, 0, n);
     int bad = 0;
-    for (int light = 0; light < frame->lights; light++) {
+    for (int light = 0; light < frame->lights && !frame->diffuse.only; light++) {
 #if SKV_RULE_GAUSS_EXP
         if (frame->quality.rule == SKV_GAUSS_EXP)
             bad |= skv_rule_gauss(frame, light, n, rays, sky);
@@ -218,6 +220,8 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
             bad |= skv_rule_midpoint(frame, light, n, rays, sky);
 #endif
     }
+    for (int light = 0; light < frame->lights && frame->diffuse.table; light++)
+        skv_diffuse_add(frame, light, n, rays, sky);
     bad |= skv_ends(frame, n, rays, sky);
     return bad ? SKV_ERR_DIRECTION : SKV_OK;
 }

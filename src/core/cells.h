@@ -1,0 +1,170 @@
+/// The cells of a diffuse-light table: where they lie, and what stands between them.
+///
+/// Axes: altitude by sqrt, sun by u/(.3+|u|), u = mu_s + .05, from mu_s = SKV_CELLS_MU_MIN to 1. A cell has per band
+/// log2 of the mean radiance c0, and ratios to it: degree 1 (2), degree 2 (3), and in detailed rows degrees 3 and 4
+/// about the vertical and the aureole (3).
+#ifndef SKV_CORE_CELLS_H
+#define SKV_CORE_CELLS_H
+
+#include "skyvert/table.h"
+
+#include "core/lanes.h"
+
+#define SKV_TABLE_MAGIC  0x534B5654u
+#define SKV_CELLS_MU_MIN -0.36f
+/// log2 of the least radiance that is kept; codes of 16 bits count from it in steps of 1/1024.
+#define SKV_CELLS_FLOOR -50.0f
+#define SKV_CELLS_STEPS 1024.0f
+#define SKV_CELLS_LEAST 8.8817842e-16f // 2^-50
+
+#ifndef SKV_K
+#define SKV_K 0.15f
+#define SKV_C 0.6f
+#endif
+/// Columns crowd where the sun is near the horizon.
+SKV_INLINE float skv_cells_warp(float mu_s) {
+    const float u = mu_s + 0.05f;
+    return u / (SKV_K + skv_fabsf(u)) + SKV_C * u;
+}
+
+/// Column coordinate of mu_s, [0, suns - 1].
+SKV_INLINE float skv_cells_column(float mu_s, int suns) {
+    const float first = skv_cells_warp(SKV_CELLS_MU_MIN), last = skv_cells_warp(1.0f);
+    const float x = (skv_cells_warp(mu_s) - first) * ((float)(suns - 1) / (last - first));
+    return skv_clampf(x, 0.0f, (float)(suns - 1));
+}
+
+/// mu_s of a column: the inverse.
+static inline float skv_cells_mu_s(int column, int suns) {
+    const float first = skv_cells_warp(SKV_CELLS_MU_MIN), last = skv_cells_warp(1.0f);
+    const float x = first + (last - first) * (float)column / (float)(suns - 1), a = skv_fabsf(x);
+    const float half = 0.5f * (SKV_C * SKV_K + 1.0f - a);
+    const float u = a * SKV_K / (half + skv_sqrtf(half * half + SKV_C * SKV_K * a));
+    return column == suns - 1 ? 1.0f : skv_clampf(skv_copysignf(u, x) - 0.05f, -1.0f, 1.0f);
+}
+
+static inline float skv_cells_altitude(const skv_table *t, int row) {
+    const float x = (float)row / (float)(t->altitudes - 1);
+    return t->ground_km + t->span_km * x * x;
+}
+
+static inline size_t skv_cells_count(const skv_table *t) {
+    return (size_t)t->altitudes * t->suns;
+}
+
+/// Ratios before a cell's.
+static inline size_t skv_cells_ratios(const skv_table *t, int row, int column) {
+    const size_t suns = t->suns, full = (size_t)(row < t->detailed ? row : t->detailed), rest = (size_t)row - full;
+    const size_t here = (size_t)column * (row < t->detailed ? 8u : 5u);
+    return (suns * (full * 8u + rest * 5u) + here) * t->bands;
+}
+
+/// Both formats: [suns][bands] log2 of the ground's irradiance, [altitudes][suns][bands] log2 of c0, ratios.
+static inline size_t skv_cells_bytes(const skv_table *t) {
+    const size_t logs = (skv_cells_count(t) + t->suns) * t->bands, ratios = skv_cells_ratios(t, t->altitudes, 0);
+    const size_t bytes = t->format == SKV_TABLE_FLOAT ? 4u * (logs + ratios) : 2u * logs + ratios;
+    return sizeof(skv_table) + ((bytes + 3u) & ~(size_t)3u);
+}
+
+SKV_INLINE const uint16_t *skv_cells_codes(const skv_table *t) {
+    return (const uint16_t *)(const void *)(t + 1);
+}
+
+SKV_INLINE const float *skv_cells_floats(const skv_table *t) {
+    return (const float *)(const void *)(t + 1);
+}
+
+/// Weights of the four cells around a point, and where they are.
+typedef struct skv_cells_place {
+    int row, column;
+    float w00, w01, w10, w11; ///< [row][column]
+} skv_cells_place;
+
+SKV_INLINE skv_cells_place skv_cells_find(const skv_table *t, float x, float y) {
+    skv_cells_place p;
+    p.row = (int)x;
+    p.row = p.row > t->altitudes - 2 ? t->altitudes - 2 : p.row;
+    p.column = (int)y;
+    p.column = p.column > t->suns - 2 ? t->suns - 2 : p.column;
+    const float wx = x - (float)p.row, wy = y - (float)p.column;
+    p.w11 = wx * wy;
+    p.w10 = wx - p.w11;
+    p.w01 = wy - p.w11;
+    p.w00 = 1.0f - wx - p.w01;
+    return p;
+}
+
+/// Eight numbers a band at most: enough for 4 bands.
+#define SKV_CELLS_VALUES (8 * SKV_BANDS_MAX)
+
+#define SKV_CELLS_MIX(type, base, k0, k1, n, out)                                                                      \
+    do {                                                                                                               \
+        const type *const a = (base) + (k0), *const b = a + (step), *const c = (base) + (k1), *const d = c + (step2);  \
+        for (int k = 0; k < (n); k++)                                                                                  \
+            (out)[k] = p->w00 * (float)a[k] + p->w01 * (float)b[k] + p->w10 * (float)c[k] + p->w11 * (float)d[k];      \
+    } while (0)
+
+/// Mean radiance c0 per band, and ratios [8][bands] to it.
+SKV_INLINE void skv_cells_read(const skv_table *t, int bands, const skv_cells_place *p, float c0[], float ratio[]) {
+    const size_t suns = t->suns,
+                 cell = ((size_t)p->row * suns + (size_t)p->column) * (size_t)bands + suns * (size_t)bands;
+    const size_t below = cell, above = cell + suns * (size_t)bands;
+    const int low = p->row < t->detailed ? 8 : 5, high = p->row + 1 < t->detailed ? 8 : 5;
+    const int step = low * bands, step2 = high * bands, n = 5 * bands;
+    const size_t r0 = skv_cells_ratios(t, p->row, p->column), r1 = skv_cells_ratios(t, p->row + 1, p->column);
+    const size_t logs = (skv_cells_count(t) + suns) * (size_t)bands;
+    if (t->format == SKV_TABLE_FLOAT) {
+        const float *const f = skv_cells_floats(t);
+        for (int b = 0; b < bands; b++)
+            c0[b] = p->w00 * f[below + (size_t)b] + p->w01 * f[below + (size_t)(b + bands)] +
+                    p->w10 * f[above + (size_t)b] + p->w11 * f[above + (size_t)(b + bands)];
+        SKV_CELLS_MIX(float, f + logs, r0, r1, n, ratio);
+        for (int k = n; k < 8 * bands; k++)
+            ratio[k] = 0.0f;
+        if (low == 8)
+            for (int k = n; k < 8 * bands; k++)
+                ratio[k] = p->w00 * f[logs + r0 + (size_t)k] + p->w01 * f[logs + r0 + (size_t)(k + step)];
+        if (high == 8)
+            for (int k = n; k < 8 * bands; k++)
+                ratio[k] += p->w10 * f[logs + r1 + (size_t)k] + p->w11 * f[logs + r1 + (size_t)(k + step2)];
+    } else {
+        const uint16_t *const code = skv_cells_codes(t);
+        const int8_t *const q = (const int8_t *)(const void *)(code + logs);
+        for (int b = 0; b < bands; b++)
+            c0[b] = SKV_CELLS_FLOOR +
+                    (p->w00 * (float)code[below + (size_t)b] + p->w01 * (float)code[below + (size_t)(b + bands)] +
+                     p->w10 * (float)code[above + (size_t)b] + p->w11 * (float)code[above + (size_t)(b + bands)]) *
+                        (1.0f / SKV_CELLS_STEPS);
+        SKV_CELLS_MIX(int8_t, q, r0, r1, n, ratio);
+        for (int k = n; k < 8 * bands; k++)
+            ratio[k] = 0.0f;
+        if (low == 8)
+            for (int k = n; k < 8 * bands; k++)
+                ratio[k] = p->w00 * (float)q[r0 + (size_t)k] + p->w01 * (float)q[r0 + (size_t)(k + step)];
+        if (high == 8)
+            for (int k = n; k < 8 * bands; k++)
+                ratio[k] += p->w10 * (float)q[r1 + (size_t)k] + p->w11 * (float)q[r1 + (size_t)(k + step2)];
+        for (int k = 0; k < 8; k++)
+            for (int b = 0; b < bands; b++)
+                ratio[k * bands + b] *= t->ratio_scale[k];
+    }
+    for (int b = 0; b < bands; b++)
+        c0[b] = skv_exp2f(c0[b]);
+}
+
+/// log2 of the diffuse irradiance of the ground per unit of the light's, at mu_s.
+SKV_INLINE float skv_ground_log2(const skv_table *t, float mu_s, int b) {
+    const float y = skv_cells_column(mu_s, t->suns);
+    int i = (int)y;
+    i = i > t->suns - 2 ? t->suns - 2 : i;
+    const float w = y - (float)i;
+    const size_t at = (size_t)i * t->bands + (size_t)b;
+    if (t->format == SKV_TABLE_FLOAT) {
+        const float *f = skv_cells_floats(t);
+        return f[at] + w * (f[at + t->bands] - f[at]);
+    }
+    const uint16_t *c = skv_cells_codes(t);
+    return SKV_CELLS_FLOOR + ((float)c[at] + w * ((float)c[at + t->bands] - (float)c[at])) * (1.0f / SKV_CELLS_STEPS);
+}
+
+#endif

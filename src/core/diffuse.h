@@ -1,0 +1,174 @@
+/// Light scattered more than once towards the observer: the integral of the diffuse source of a table along rays.
+///
+/// The source is the incoming radiance of the table's cells weighed by the moments of each phase function. With the
+/// view direction v, the sun s and up z at a sample, mu = v.z, q = v.s - mu mu_s:
+///
+///     c0 + a1 (k1 mu + k2 q) + a2 (k3 P2(mu) + k4 mu q + k5 (2 q^2 - (1-mu_s^2)(1-mu^2)))
+///        + a3 k6 P3(mu) + a4 k7 P4(mu) + k8 aureole(v.s)
+///
+/// No angle is divided by: with the sun in the zenith nothing has to be decided.
+#ifndef SKV_CORE_DIFFUSE_H
+#define SKV_CORE_DIFFUSE_H
+
+#include "core/cells.h"
+#include "core/gauss.h"
+#include "core/moments.h"
+#include "core/rays.h"
+#include "core/slices.h"
+#include "core/ends.h"
+
+/// Samples of up to SKV_LANES legs: what the source needs.
+typedef struct skv_diffuse_samples {
+    skv_lanes x, y; ///< coordinates in the table
+    skv_lanes mu, q, mu_s;
+    skv_lanes density[2];           ///< that scatters, times path length
+    skv_lanes decay[SKV_BANDS_MAX]; ///< transmittance to the observer
+} skv_diffuse_samples;
+
+/// Polynomials in which the numbers of a cell are coefficients.
+SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, const skv_diffuse_samples *q, int l,
+                                   const float aureole[2], float out[]) {
+    const skv_table *const t = frame->diffuse.table;
+    const skv_cells_place place = skv_cells_find(t, q->x.v[l], q->y.v[l]);
+    float c0[SKV_BANDS_MAX], k[SKV_CELLS_VALUES];
+    skv_cells_read(t, bands, &place, c0, k);
+    const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
+    const float p2 = 1.5f * mu2 - 0.5f, p3 = (2.5f * mu2 - 1.5f) * mu, p4 = (4.375f * mu2 - 3.75f) * mu2 + 0.375f;
+    const float mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
+    for (int b = 0; b < bands; b++) {
+        const float one = k[b] * mu + k[bands + b] * x;
+        const float two = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
+        float sum = 0.0f;
+        if (SKV_PRESENT(has, SKV_RAYLEIGH))
+            sum += frame->rayleigh_per_km[b] * q->density[0].v[l] * skv_maxf(1.0f + 0.1f * two, 0.0f);
+        if (SKV_PRESENT(has, SKV_AEROSOL)) {
+            const float *const a = frame->diffuse.moment[1];
+            const float fine =
+                a[2] * p3 * k[5 * bands + b] + a[3] * p4 * k[6 * bands + b] + aureole[1] * k[7 * bands + b];
+            sum +=
+                frame->aerosol_per_km[b] * q->density[1].v[l] * skv_maxf(1.0f + a[0] * one + a[1] * two + fine, 0.0f);
+        }
+        out[b] += c0[b] * sum * q->decay[b].v[l];
+    }
+}
+
+/// One slice of a leg, [a, b], of each lane.
+static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_legs *leg, int count,
+                                           const skv_lanes aureole[2], float radiance[][SKV_BANDS_MAX]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const int n = frame->diffuse.samples, bands = SKV_BANDS_OF(has);
+    const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
+    const skv_table *const t = frame->diffuse.table;
+    const float rows = (float)(t->altitudes - 1), inv_span = frame->diffuse.inv_span, offset = frame->diffuse.offset_km;
+    skv_points p;
+    skv_lanes e0, rm, rms, l_km, k, whole;
+    skv_diffuse_samples q;
+    skv_legs_start(frame, has, leg, &p, &e0, &rm, &rms);
+    skv_legs_map(frame, has, leg, &p, &rm, &rms, &l_km, &k, &whole);
+    for (int i = 0; i < n; i++) {
+        skv_lanes e, ds, mu_leg, sin_view;
+        skv_columns c;
+        SKV_EACH_LANE(l) {
+            const float g = skv_exp2f_d5(k.v[l] * (1.44269504f * node[i])), s = l_km.v[l] * (g - 1.0f);
+            ds.v[l] = weight[i] * k.v[l] * l_km.v[l] * g;
+            e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            mu_leg.v[l] = rm.v[l] + s;
+            q.mu_s.v[l] = rms.v[l] + s * leg->nu.v[l];
+        }
+        skv_points_at(frame, has, &e, &p);
+        SKV_EACH_LANE(l) {
+            const float inv_r = p.inv_r.v[l], m = skv_clampf(mu_leg.v[l] * inv_r, 0.0f, 1.0f);
+            const float ms = skv_clampf(q.mu_s.v[l] * inv_r, -1.0f, 1.0f), dir = -leg->sigma.v[l];
+            mu_leg.v[l] = m;
+            sin_view.v[l] = skv_minf(leg->p_km.v[l] * inv_r, 1.0f);
+            q.mu_s.v[l] = ms;
+            q.mu.v[l] = dir * m;
+            q.q.v[l] = dir * (leg->nu.v[l] - m * ms);
+            q.x.v[l] = skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f);
+            q.y.v[l] = skv_cells_column(ms, t->suns);
+        }
+        SKV_EACH_LANE(l) q.x.v[l] = skv_sqrtf(q.x.v[l]) * rows;
+        skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);
+        for (int s = 0; s < SKV_SPECIES; s++)
+            if (SKV_PRESENT(has, s))
+                SKV_EACH_LANE(l)
+        c.of[s].v[l] = skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * c.of[s].v[l], 0.0f);
+        for (int s = 0; s < 2; s++)
+            if (SKV_PRESENT(has, s)) {
+                skv_scattering_density(frame, has, &p, s, &q.density[s]);
+                SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
+            }
+        for (int b = 0; b < bands; b++)
+            SKV_EACH_LANE(l)
+        q.decay[b].v[l] = skv_decay(&frame->limits, -skv_optical_depth_log2e(frame, has, &c, b, l));
+        for (int l = 0; l < count; l++) {
+            const float a[2] = {aureole[0].v[l], aureole[1].v[l]};
+            if (!(leg->b.v[l] > leg->a.v[l]))
+                continue;
+#if SKV_BANDS == 0
+            if (bands == 4)
+                skv_diffuse_source(frame, has, 4, &q, l, a, radiance[l]);
+            else
+                skv_diffuse_source(frame, has, 3, &q, l, a, radiance[l]);
+#else
+            skv_diffuse_source(frame, has, SKV_BANDS, &q, l, a, radiance[l]);
+#endif
+        }
+    }
+}
+
+/// One part of the rays of a block as legs; the planet's shadow does not matter here.
+static SKV_NOINLINE int skv_diffuse_legs(const skv_frame *frame, int light, size_t n, size_t first,
+                                         const skv_rays *rays, int part, skv_legs *restrict leg,
+                                         skv_lanes aureole[restrict 2]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const float *const to = frame->diffuse.toward_enu[light];
+    skv_block block;
+    skv_block_light toward;
+    skv_columns k[2];
+    skv_block_load(frame, n, first, rays, &block);
+    skv_block_columns(frame, has, &block, k);
+    skv_block_toward(frame, has, light, &block, &toward);
+    skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], leg);
+    SKV_EACH_LANE(l) {
+        const float x = block.view[0].v[l] - to[0], y = block.view[1].v[l] - to[1], z = block.view[2].v[l] - to[2];
+        const float near = 0.5f * (x * x + y * y + z * z);
+        aureole[0].v[l] = 0.0f;
+        aureole[1].v[l] = skv_aureole(frame->diffuse.aureole[1], near);
+    }
+    return part + 1 < block.parts;
+}
+
+/// Adds light scattered at least twice along each ray.
+static void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+    const int bands = skv_bands(frame->model);
+    for (size_t first = 0; first < n; first += SKV_LANES) {
+        const int count = n - first < SKV_LANES ? (int)(n - first) : SKV_LANES;
+        float radiance[SKV_LANES][SKV_BANDS_MAX];
+        for (int l = 0; l < SKV_LANES; l++)
+            for (int b = 0; b < SKV_BANDS_MAX; b++)
+                radiance[l][b] = 0.0f;
+        for (int part = 0, more = 1; more; part++) {
+            skv_legs leg;
+            skv_lanes aureole[2];
+            more = skv_diffuse_legs(frame, light, n, first, rays, part, &leg, aureole);
+            const int slices = skv_slices(frame, &leg);
+            const skv_lanes last = leg.b;
+            for (int i = 0; i < slices; i++) {
+                if (i < slices - 1)
+                    skv_slice_end(frame, &leg, i, &last);
+                else
+                    leg.b = last;
+                skv_diffuse_slice(frame, &leg, count, aureole, radiance);
+                leg.a = leg.b;
+            }
+        }
+        for (int l = 0; l < count; l++) {
+            float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, (size_t)bands, first + (size_t)l);
+            for (int b = 0; b < bands; b++)
+                out[b] = skv_minf(out[b] + radiance[l][b] * frame->light[light].irradiance[b], SKV_RADIANCE_MAX);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,337 @@
+#include "skyvert/table.h"
+
+#include <string.h>
+
+#include "skyvert/radiance.h"
+
+#include "core/gather.h"
+#include "core/table_pack.h"
+
+#if SKV_TERM_DIFFUSE
+
+skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
+    static const skv_table_spec kinds[SKV_TABLE_KINDS] = {
+        {10, 4, 24, 0, {6, 4}, {8, 6}, {8, 5}, 0.0f, SKV_TABLE_PACKED},
+        {8, 3, 18, 0, {6, 4}, {6, 4}, {6, 4}, 0.0f, SKV_TABLE_PACKED},
+    };
+    if (!spec)
+        return SKV_ERR_NULL;
+    if ((int)kind < 0 || (int)kind >= SKV_TABLE_KINDS)
+        return SKV_ERR_UNSUPPORTED;
+    *spec = kinds[kind];
+    return SKV_OK;
+}
+
+static int skv_table_within(int32_t x, int32_t lo, int32_t hi) {
+    return x >= lo && x <= hi;
+}
+
+static skv_status skv_table_spec_check(const skv_table_spec *s) {
+    int ok = skv_table_within(s->altitudes, 4, 32) && skv_table_within(s->detailed, 0, s->altitudes) &&
+             skv_table_within(s->suns, 8, 64) && skv_table_within(s->format, 0, 1) &&
+             (s->orders == 0 || skv_table_within(s->orders, 2, 64)) && s->ground_km >= -12.0f && s->ground_km <= 12.0f;
+    for (int i = 0; i < 2; i++)
+        ok = ok && skv_table_within(s->samples[i], 2, 16) && skv_table_within(s->polar[i], 2, 16) &&
+             skv_table_within(s->azimuths[i], 2, 16);
+    return ok ? SKV_OK : SKV_ERR_RANGE;
+}
+
+static void skv_table_header(skv_table *t, const skv_table_spec *spec, int bands, int format) {
+    memset(t, 0, sizeof *t);
+    t->magic = SKV_TABLE_MAGIC;
+    t->version = SKV_TABLE_VERSION;
+    t->format = (uint8_t)format;
+    t->bands = (uint8_t)bands;
+    t->altitudes = (uint8_t)spec->altitudes;
+    t->detailed = (uint8_t)spec->detailed;
+    t->suns = (uint8_t)spec->suns;
+    t->ground_km = spec->ground_km;
+    for (int k = 0; k < SKV_TABLE_TERMS - 1; k++)
+        t->ratio_scale[k] = 1.0f;
+    t->bytes = (uint32_t)skv_cells_bytes(t);
+}
+
+/// Floats of the work space behind the float table.
+static size_t skv_table_rest(const skv_table *t) {
+    return (skv_cells_count(t) * (SKV_TABLE_TERMS + 1u) + t->suns) * t->bands;
+}
+
+size_t skv_table_size(const skv_table_spec *spec, int bands) {
+    skv_table t;
+    if (!spec || skv_table_spec_check(spec) != SKV_OK || (bands != 3 && bands != 4))
+        return 0;
+    skv_table_header(&t, spec, bands, spec->format);
+    return t.bytes;
+}
+
+size_t skv_table_work_size(const skv_table_spec *spec, int bands) {
+    skv_table t;
+    if (skv_table_size(spec, bands) == 0)
+        return 0;
+    skv_table_header(&t, spec, bands, SKV_TABLE_FLOAT);
+    return t.bytes + sizeof(float) * skv_table_rest(&t);
+}
+
+/// Passes that leave less than the error of the rest of the method: more where light is scattered more often.
+static int32_t skv_table_orders(const skv_model *m) {
+    float tau = 0.0f;
+    for (int b = 0; b < skv_bands(m); b++)
+        tau = skv_maxf(tau, m->rayleigh_per_km[b] * m->species[SKV_RAYLEIGH].scale_height_km +
+                                m->aerosol_per_km[b] * m->species[SKV_AEROSOL].scale_height_km);
+    return tau < 0.5f ? 4 : tau < 8.0f ? 4 + (int32_t)(4.0f * tau) : 40;
+}
+
+skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, const skv_table_spec *spec,
+                           skv_table *table, size_t table_bytes, void *work, size_t work_bytes) {
+    skv_table_spec accurate;
+    if (!builder || !model || !table || !work)
+        return SKV_ERR_NULL;
+    if (model->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    (void)skv_table_spec_kind(&accurate, SKV_TABLE_ACCURATE);
+    const skv_table_spec *const s = spec ? spec : &accurate;
+    if (skv_table_spec_check(s) != SKV_OK || !(s->ground_km < model->top_km) ||
+        !(s->ground_km > -0.5f * model->radius_km))
+        return SKV_ERR_RANGE;
+    const int bands = skv_bands(model);
+    if (table_bytes < skv_table_size(s, bands) || work_bytes < skv_table_work_size(s, bands) ||
+        ((uintptr_t)table | (uintptr_t)work) % sizeof(float) != 0)
+        return SKV_ERR_SIZE;
+    memset(builder, 0, sizeof *builder);
+    builder->spec = *s;
+    builder->model = model;
+    builder->table = table;
+    builder->work = work;
+    skv_table_header(builder->work, s, bands, SKV_TABLE_FLOAT);
+    // Above eight scale heights hardly anything scatters.
+    builder->work->span_km =
+        skv_minf(model->top_km - s->ground_km, 7.5f * skv_maxf(model->species[SKV_RAYLEIGH].scale_height_km, 1.0f));
+    builder->work->model = model->hash;
+    builder->first = (float *)(void *)((char *)work + builder->work->bytes);
+    builder->change =
+        builder->first + (skv_cells_count(builder->work) * SKV_TABLE_TERMS + builder->work->suns) * (size_t)bands;
+    builder->pass = 1;
+    if (builder->spec.orders == 0)
+        builder->spec.orders = skv_table_orders(model);
+    builder->layout = SKV_LAYOUT;
+    return SKV_OK;
+}
+
+/// The frame of a cell, its light in the direction of azimuth 0 with irradiance 1.
+static void skv_table_cell_begin(skv_table_builder *b) {
+    const skv_table *t = b->work;
+    const float mu_s = skv_cells_mu_s(b->column, t->suns);
+    const float observer_km = skv_minf(skv_cells_altitude(t, b->row), b->model->top_km);
+    skv_quality q = {SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, b->spec.samples[0], 16, SKV_WITH_ALL};
+    skv_light light;
+    memset(&light, 0, sizeof light);
+    light.direction_enu[0] = skv_sqrtf(skv_maxf((1.0f - mu_s) * (1.0f + mu_s), 0.0f));
+    light.direction_enu[2] = mu_s;
+#if !SKV_DEPTH_CHAPMAN
+    q.depth = SKV_DEPTH_BY_INNER;
+#endif
+#if !SKV_TERM_GROUND
+    q.terms &= ~(uint32_t)SKV_WITH_GROUND;
+#endif
+    (void)skv_frame_begin(&b->frame, b->model, &q, observer_km, b->spec.ground_km, &light, 1);
+    for (int i = 0; i < SKV_BANDS_MAX; i++)
+        b->frame.light[0].irradiance[i] = 1.0f;
+    (void)skv_frame_table(&b->frame, t);
+    b->frame.diffuse.samples = b->spec.samples[1];
+    b->frame.diffuse.only = b->pass > 1;
+    if (b->pass == 1)
+        b->frame.diffuse.table = NULL;
+    memset(b->moment, 0, sizeof b->moment);
+}
+
+static int skv_table_rays(const skv_table_builder *b) {
+    const int later = b->pass > 1;
+    return 2 * b->spec.polar[later] * b->spec.azimuths[later];
+}
+
+/// Gathers the next rays of a cell. They are added one by one: the sum does not depend on how many come at a time.
+static void skv_table_gather(skv_table_builder *b, int count) {
+    const int later = b->pass > 1, bands = skv_bands(b->model), kept = b->frame.diffuse.kept;
+    const skv_frame_diffuse *const d = &b->frame.diffuse;
+    const float h = b->frame.height_km, r = b->frame.radius_km + h;
+    const float horizon = -skv_sqrtf(h * (b->frame.radius_km + r)) / r;
+    const float kernel_g = skv_third_root(skv_fabsf(d->moment[kept][2])) * d->aureole[kept];
+    skv_gather_ray ray[SKV_TABLE_STEP_RAYS];
+    float radiance[SKV_TABLE_STEP_RAYS * SKV_BANDS_MAX];
+    for (int i = 0; i < count; i++)
+        ray[i] = skv_gather_direction(horizon, b->spec.polar[later], b->spec.azimuths[later], b->ray + i);
+    const skv_rays rays = {ray[0].direction, sizeof ray[0], NULL, 0};
+    const skv_sky sky = {radiance, 0, NULL, 0};
+    (void)skv_radiance(&b->frame, (size_t)count, &rays, &sky);
+    for (int i = 0; i < count; i++) {
+        float factor[SKV_GATHER_COUNT];
+        skv_gather_factors(&ray[i], d->toward_enu[0], kernel_g, factor);
+        for (int k = 0; k < SKV_GATHER_COUNT; k++)
+            for (int band = 0; band < bands; band++)
+                b->moment[k][band] += ray[i].weight * radiance[i * bands + band] * factor[k];
+    }
+    b->ray += count;
+}
+
+/// The aureole that light scattered once by the kept species has at a cell, roughly.
+static float skv_table_expected(const skv_table_builder *b, int band, float mu_s) {
+    const int s = b->frame.diffuse.kept;
+    const skv_species *const sp = &b->model->species[s];
+    const float density = skv_exp2f(-b->frame.height_km * sp->inv_scale_log2e);
+    const float tau =
+        b->frame.aerosol_per_km[band] * density * sp->scale_height_km / skv_maxf(mu_s, SKV_AUREOLE_LOWEST);
+    return b->pass == 1 ? tau * skv_expf(-tau) : 0.0f;
+}
+
+/// The numbers of a cell after a pass: light scattered once and what was gathered of the table so far. The last pass
+/// adds the rest as a geometric series.
+/// @return by how much the pass changes it in all, over its own change.
+static float skv_table_cell_update(skv_table_builder *b, int band, float now[SKV_TABLE_TERMS], const float old[],
+                                   float first[], float *change) {
+    const int terms = b->row < b->work->detailed ? SKV_TABLE_TERMS : 6;
+    if (b->pass == 1) {
+        for (int k = 0; k < terms; k++)
+            first[k] = now[k];
+        *change = now[0];
+        return 0.0f;
+    }
+    (void)band;
+    for (int k = 0; k < terms; k++)
+        now[k] += first[k];
+    const float step = now[0] - old[0], rate = *change > 0.0f ? skv_clampf(step / *change, 0.0f, 0.9f) : 0.0f;
+    const float more = b->pass == b->spec.orders ? rate / (1.0f - rate) : 0.0f;
+    *change = step;
+    for (int k = 0; k < terms; k++)
+        now[k] += more * (now[k] - old[k]);
+    return more;
+}
+
+/// log2 of a radiance that the table keeps.
+static float skv_table_log2(float x) {
+    return skv_log2f(skv_maxf(x, SKV_CELLS_LEAST));
+}
+
+/// No radiance >= 0 has larger ratios to its mean; those over sines stay finite, for radiance about a light in the
+/// zenith is round.
+static const float skv_table_bound[SKV_TABLE_TERMS - 1] = {3.0f, 6.0f, 5.0f, 10.0f, 8.0f, 14.0f, 18.0f, 40.0f};
+
+static void skv_table_cell_band(skv_table_builder *b, int band) {
+    skv_table *const t = b->work;
+    float *const log = (float *)(void *)(t + 1);
+    const size_t bands = t->bands, suns = t->suns, cell = (size_t)b->row * suns + (size_t)b->column, i = (size_t)band;
+    float *const mean = log + (suns + cell) * bands + i, *const ground = log + (size_t)b->column * bands + i;
+    float *const ratio = log + (suns + skv_cells_count(t)) * bands + skv_cells_ratios(t, b->row, b->column) + i;
+    const int terms = b->row < t->detailed ? SKV_TABLE_TERMS : 6, kept = b->frame.diffuse.kept;
+    const float mu_s = skv_cells_mu_s(b->column, t->suns);
+    float m[SKV_GATHER_COUNT], now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];
+    for (int k = 0; k < SKV_GATHER_COUNT; k++)
+        m[k] = b->moment[k][band];
+    skv_gather_fit(m, b->frame.diffuse.moment[kept], b->frame.diffuse.aureole[kept], mu_s,
+                   skv_table_expected(b, band, mu_s), now);
+    old[0] = b->pass > 1 ? skv_exp2f(*mean) : 0.0f;
+    for (int k = 1; k < terms; k++)
+        old[k] = b->pass > 1 ? ratio[(size_t)(k - 1) * bands] * old[0] : 0.0f;
+    const float more = skv_table_cell_update(b, band, now, old, b->first + (cell * bands + i) * SKV_TABLE_TERMS,
+                                             b->change + cell * bands + i);
+    if (b->row == 0) {
+        float *const once = b->first + (skv_cells_count(t) * SKV_TABLE_TERMS + (size_t)b->column) * bands + i;
+        float sum = m[SKV_GATHER_DOWN];
+        if (b->pass == 1)
+            *once = sum;
+        else
+            sum += *once;
+        *ground = skv_table_log2(sum + more * (sum - skv_exp2f(*ground)));
+    }
+    *mean = skv_table_log2(now[0]);
+    for (int k = 0; k < terms - 1; k++) {
+        const float x = now[k + 1] / skv_maxf(now[0], SKV_CELLS_LEAST), bound = skv_table_bound[k];
+        ratio[(size_t)k * bands] = skv_clampf(x, -bound, bound);
+        if (b->pass == b->spec.orders)
+            b->largest[k] = skv_maxf(b->largest[k], skv_fabsf(ratio[(size_t)k * bands]));
+    }
+}
+
+/// On to the next cell; a pass ends with the last one.
+static void skv_table_next(skv_table_builder *b) {
+    b->ray = 0;
+    if (++b->column < b->work->suns)
+        return;
+    b->column = 0;
+    if (++b->row < b->work->altitudes)
+        return;
+    b->row = 0;
+    b->pass++;
+}
+
+static void skv_table_work(skv_table_builder *b) {
+    if (b->ray == 0)
+        skv_table_cell_begin(b);
+    const int left = skv_table_rays(b) - b->ray;
+    skv_table_gather(b, left < SKV_TABLE_STEP_RAYS ? left : SKV_TABLE_STEP_RAYS);
+    if (b->ray < skv_table_rays(b))
+        return;
+    for (int band = 0; band < skv_bands(b->model); band++)
+        skv_table_cell_band(b, band);
+    skv_table_next(b);
+}
+
+static int skv_table_permille(const skv_table_builder *b) {
+    const int32_t cells = b->work->altitudes * b->work->suns, cell = b->row * b->work->suns + b->column;
+    const int32_t once = 2 * b->spec.polar[0] * b->spec.azimuths[0], later = 2 * b->spec.polar[1] * b->spec.azimuths[1];
+    const int32_t all = once + later * (b->spec.orders - 1);
+    const int32_t before = b->pass == 1 ? 0 : once + later * (b->pass - 2), rays = b->pass == 1 ? once : later;
+    return (int)((float)(before * cells + rays * cell) / (float)(all * cells) * 998.0f);
+}
+
+skv_status skv_table_step(skv_table_builder *builder, int *permille) {
+    if (!builder)
+        return SKV_ERR_NULL;
+    if (builder->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    const int32_t pack = builder->spec.orders + 1;
+    if (builder->pass < pack)
+        skv_table_work(builder);
+    else if (builder->pass == pack) {
+        skv_table_pack_row(builder->work, builder->table, builder->row, builder->largest, builder->spec.format);
+        if (++builder->row == builder->work->altitudes)
+            builder->pass++;
+    } else if (builder->pass == pack + 1) {
+        skv_table_seal(builder->table);
+        builder->pass++;
+    }
+    if (permille)
+        *permille = builder->pass < pack ? skv_table_permille(builder) : builder->pass < pack + 2 ? 999 : 1000;
+    return SKV_OK;
+}
+
+skv_status skv_table_build(skv_table *table, size_t table_bytes, void *work, size_t work_bytes, const skv_model *model,
+                           const skv_table_spec *spec) {
+    skv_table_builder builder;
+    int done = 0;
+    skv_status status = skv_table_begin(&builder, model, spec, table, table_bytes, work, work_bytes);
+    while (status == SKV_OK && done < 1000)
+        status = skv_table_step(&builder, &done);
+    return status;
+}
+
+#else
+
+skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
+    (void)spec;
+    (void)kind;
+    return SKV_ERR_UNSUPPORTED;
+}
+
+size_t skv_table_size(const skv_table_spec *spec, int bands) {
+    (void)spec;
+    (void)bands;
+    return 0;
+}
+
+size_t skv_table_work_size(const skv_table_spec *spec, int bands) {
+    (void)spec;
+    (void)bands;
+    return 0;
+}
+
+#endif
