@@ -26,8 +26,9 @@ extern "C" {
 /// Layout of the bytes; a table of another version is refused.
 #define SKV_TABLE_VERSION 1u
 
-/// Numbers per cell and band.
-#define SKV_TABLE_TERMS 9
+/// Numbers per cell and band: of degrees 0 to 2, and fine ones in detailed rows.
+#define SKV_TABLE_FINE  7
+#define SKV_TABLE_TERMS (6 + SKV_TABLE_FINE)
 
 typedef enum skv_table_format {
     SKV_TABLE_PACKED = 0, ///< 16-bit logarithms and 8-bit ratios
@@ -43,7 +44,7 @@ typedef enum skv_table_kind {
 /// How a table is made. Fill it with skv_table_spec_kind(), then change what you need.
 typedef struct skv_table_spec {
     int32_t altitudes;   ///< rows, [4, 32]
-    int32_t detailed;    ///< of these, from the ground up, with all nine numbers (the others have six), [0, altitudes]
+    int32_t detailed;    ///< of these, from the ground up, with all numbers (the others have six), [0, altitudes]
     int32_t suns;        ///< columns, [8, 64]
     int32_t orders;      ///< passes over all cells, [2, 64]: orders of scattering, the rest is taken as a geometric
                          ///< series; 0 = by the optical depth of the air
@@ -86,7 +87,8 @@ typedef struct skv_table_builder {
     int32_t pass;     ///< 1 ... orders gather; then packing; then checking; then done
     int32_t row, column, ray;
     skv_frame frame;                 ///< of the cell in work
-    float moment[10][SKV_BANDS_MAX]; ///< its gathered moments
+    float moment[7][SKV_BANDS_MAX];  ///< its gathered moments
+    float source[60][SKV_BANDS_MAX]; ///< what its forward-scattering species sends in some directions
     float largest[SKV_TABLE_TERMS - 1];
     uint32_t sum;
 } skv_table_builder;

@@ -12,19 +12,17 @@
 
 #define SKV_TABLE_MAGIC  0x534B5654u
 #define SKV_CELLS_MU_MIN -0.36f
+#define SKV_CELLS_KNEE   0.15f
+#define SKV_CELLS_SLOPE  0.6f
 /// log2 of the least radiance that is kept; codes of 16 bits count from it in steps of 1/1024.
 #define SKV_CELLS_FLOOR -50.0f
 #define SKV_CELLS_STEPS 1024.0f
 #define SKV_CELLS_LEAST 8.8817842e-16f // 2^-50
 
-#ifndef SKV_K
-#define SKV_K 0.15f
-#define SKV_C 0.6f
-#endif
 /// Columns crowd where the sun is near the horizon.
 SKV_INLINE float skv_cells_warp(float mu_s) {
     const float u = mu_s + 0.05f;
-    return u / (SKV_K + skv_fabsf(u)) + SKV_C * u;
+    return u / (SKV_CELLS_KNEE + skv_fabsf(u)) + SKV_CELLS_SLOPE * u;
 }
 
 /// Column coordinate of mu_s, [0, suns - 1].
@@ -38,9 +36,10 @@ SKV_INLINE float skv_cells_column(float mu_s, int suns) {
 static inline float skv_cells_mu_s(int column, int suns) {
     const float first = skv_cells_warp(SKV_CELLS_MU_MIN), last = skv_cells_warp(1.0f);
     const float x = first + (last - first) * (float)column / (float)(suns - 1), a = skv_fabsf(x);
-    const float half = 0.5f * (SKV_C * SKV_K + 1.0f - a);
-    const float u = a * SKV_K / (half + skv_sqrtf(half * half + SKV_C * SKV_K * a));
-    return column == suns - 1 ? 1.0f : skv_clampf(skv_copysignf(u, x) - 0.05f, -1.0f, 1.0f);
+    const float half = 0.5f * (SKV_CELLS_SLOPE * SKV_CELLS_KNEE + 1.0f - a);
+    const float u = a * SKV_CELLS_KNEE / (half + skv_sqrtf(half * half + SKV_CELLS_SLOPE * SKV_CELLS_KNEE * a));
+    // Not the zenith itself: what is divided by the sine of the distance from it has its limit there.
+    return skv_clampf(skv_copysignf(u, x) - 0.05f, -1.0f, 0.998f);
 }
 
 static inline float skv_cells_altitude(const skv_table *t, int row) {
@@ -55,8 +54,8 @@ static inline size_t skv_cells_count(const skv_table *t) {
 /// Ratios before a cell's.
 static inline size_t skv_cells_ratios(const skv_table *t, int row, int column) {
     const size_t suns = t->suns, full = (size_t)(row < t->detailed ? row : t->detailed), rest = (size_t)row - full;
-    const size_t here = (size_t)column * (row < t->detailed ? 8u : 5u);
-    return (suns * (full * 8u + rest * 5u) + here) * t->bands;
+    const size_t here = (size_t)column * (row < t->detailed ? SKV_TABLE_TERMS - 1u : 5u);
+    return (suns * (full * (SKV_TABLE_TERMS - 1u) + rest * 5u) + here) * t->bands;
 }
 
 /// Both formats: [suns][bands] log2 of the ground's irradiance, [altitudes][suns][bands] log2 of c0, ratios.
@@ -94,8 +93,8 @@ SKV_INLINE skv_cells_place skv_cells_find(const skv_table *t, float x, float y) 
     return p;
 }
 
-/// Eight numbers a band at most: enough for 4 bands.
-#define SKV_CELLS_VALUES (8 * SKV_BANDS_MAX)
+/// All ratios of a cell.
+#define SKV_CELLS_VALUES ((SKV_TABLE_TERMS - 1) * SKV_BANDS_MAX)
 
 #define SKV_CELLS_MIX(type, base, k0, k1, n, out)                                                                      \
     do {                                                                                                               \
@@ -109,7 +108,8 @@ SKV_INLINE void skv_cells_read(const skv_table *t, int bands, const skv_cells_pl
     const size_t suns = t->suns,
                  cell = ((size_t)p->row * suns + (size_t)p->column) * (size_t)bands + suns * (size_t)bands;
     const size_t below = cell, above = cell + suns * (size_t)bands;
-    const int low = p->row < t->detailed ? 8 : 5, high = p->row + 1 < t->detailed ? 8 : 5;
+    const int low = p->row < t->detailed ? SKV_TABLE_TERMS - 1 : 5,
+              high = p->row + 1 < t->detailed ? SKV_TABLE_TERMS - 1 : 5;
     const int step = low * bands, step2 = high * bands, n = 5 * bands;
     const size_t r0 = skv_cells_ratios(t, p->row, p->column), r1 = skv_cells_ratios(t, p->row + 1, p->column);
     const size_t logs = (skv_cells_count(t) + suns) * (size_t)bands;
@@ -119,13 +119,13 @@ SKV_INLINE void skv_cells_read(const skv_table *t, int bands, const skv_cells_pl
             c0[b] = p->w00 * f[below + (size_t)b] + p->w01 * f[below + (size_t)(b + bands)] +
                     p->w10 * f[above + (size_t)b] + p->w11 * f[above + (size_t)(b + bands)];
         SKV_CELLS_MIX(float, f + logs, r0, r1, n, ratio);
-        for (int k = n; k < 8 * bands; k++)
+        for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
             ratio[k] = 0.0f;
-        if (low == 8)
-            for (int k = n; k < 8 * bands; k++)
+        if (low > 5)
+            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
                 ratio[k] = p->w00 * f[logs + r0 + (size_t)k] + p->w01 * f[logs + r0 + (size_t)(k + step)];
-        if (high == 8)
-            for (int k = n; k < 8 * bands; k++)
+        if (high > 5)
+            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
                 ratio[k] += p->w10 * f[logs + r1 + (size_t)k] + p->w11 * f[logs + r1 + (size_t)(k + step2)];
     } else {
         const uint16_t *const code = skv_cells_codes(t);
@@ -136,15 +136,15 @@ SKV_INLINE void skv_cells_read(const skv_table *t, int bands, const skv_cells_pl
                      p->w10 * (float)code[above + (size_t)b] + p->w11 * (float)code[above + (size_t)(b + bands)]) *
                         (1.0f / SKV_CELLS_STEPS);
         SKV_CELLS_MIX(int8_t, q, r0, r1, n, ratio);
-        for (int k = n; k < 8 * bands; k++)
+        for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
             ratio[k] = 0.0f;
-        if (low == 8)
-            for (int k = n; k < 8 * bands; k++)
+        if (low > 5)
+            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
                 ratio[k] = p->w00 * (float)q[r0 + (size_t)k] + p->w01 * (float)q[r0 + (size_t)(k + step)];
-        if (high == 8)
-            for (int k = n; k < 8 * bands; k++)
+        if (high > 5)
+            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
                 ratio[k] += p->w10 * (float)q[r1 + (size_t)k] + p->w11 * (float)q[r1 + (size_t)(k + step2)];
-        for (int k = 0; k < 8; k++)
+        for (int k = 0; k < SKV_TABLE_TERMS - 1; k++)
             for (int b = 0; b < bands; b++)
                 ratio[k * bands + b] *= t->ratio_scale[k];
     }

@@ -12,7 +12,7 @@
 
 #include "core/cells.h"
 #include "core/gauss.h"
-#include "core/moments.h"
+#include "core/fine_fit.h"
 #include "core/rays.h"
 #include "core/slices.h"
 #include "core/ends.h"
@@ -33,8 +33,9 @@ SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int ban
     float c0[SKV_BANDS_MAX], k[SKV_CELLS_VALUES];
     skv_cells_read(t, bands, &place, c0, k);
     const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
-    const float p2 = 1.5f * mu2 - 0.5f, p3 = (2.5f * mu2 - 1.5f) * mu, p4 = (4.375f * mu2 - 3.75f) * mu2 + 0.375f;
-    const float mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
+    const float p2 = 1.5f * mu2 - 0.5f, mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
+    float fine[SKV_TABLE_FINE];
+    skv_fine_basis(frame->diffuse.moment[1], aureole[1], mu, x, mu_s, fine);
     for (int b = 0; b < bands; b++) {
         const float one = k[b] * mu + k[bands + b] * x;
         const float two = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
@@ -43,10 +44,10 @@ SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int ban
             sum += frame->rayleigh_per_km[b] * q->density[0].v[l] * skv_maxf(1.0f + 0.1f * two, 0.0f);
         if (SKV_PRESENT(has, SKV_AEROSOL)) {
             const float *const a = frame->diffuse.moment[1];
-            const float fine =
-                a[2] * p3 * k[5 * bands + b] + a[3] * p4 * k[6 * bands + b] + aureole[1] * k[7 * bands + b];
-            sum +=
-                frame->aerosol_per_km[b] * q->density[1].v[l] * skv_maxf(1.0f + a[0] * one + a[1] * two + fine, 0.0f);
+            float more = a[0] * one + a[1] * two;
+            for (int i = 0; i < SKV_TABLE_FINE; i++)
+                more += k[(5 + i) * bands + b] * fine[i];
+            sum += frame->aerosol_per_km[b] * q->density[1].v[l] * skv_maxf(1.0f + more, 0.0f);
         }
         out[b] += c0[b] * sum * q->decay[b].v[l];
     }
@@ -140,7 +141,7 @@ static SKV_NOINLINE int skv_diffuse_legs(const skv_frame *frame, int light, size
 }
 
 /// Adds light scattered at least twice along each ray.
-static void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const int bands = skv_bands(frame->model);
     for (size_t first = 0; first < n; first += SKV_LANES) {
         const int count = n - first < SKV_LANES ? (int)(n - first) : SKV_LANES;

@@ -3,6 +3,7 @@
 #define SKV_CORE_ENDS_H
 
 #include "core/cells.h"
+#include "core/grid.h"
 #include "core/rays.h"
 
 /// Columns from the observer to the end of the ray.
@@ -89,12 +90,31 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
 }
 #endif
 
+void skv_grid_amounts_of(const skv_frame *frame, size_t n, const skv_rays *rays, float *amount) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const size_t bands = (size_t)SKV_BANDS_OF(has);
+    for (size_t first = 0; first < n; first += SKV_LANES) {
+        skv_block block;
+        skv_columns k[2], c;
+        skv_lanes of;
+        skv_block_load(frame, n, first, rays, &block);
+        skv_block_columns(frame, has, &block, k);
+        skv_grid_columns(frame, has, &block, k, &c);
+        for (size_t b = 0; b < bands; b++) {
+            skv_grid_amounts(frame, has, &c, (int)b, &of);
+            for (int l = 0; l < block.count; l++)
+                amount[(first + (size_t)l) * bands + b] = of.v[l];
+        }
+    }
+}
+
 /// @return whether any ray was refused.
 static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
-    if (!ground && !sky->transmittance && frame->lights > 0)
+    const int grid = frame->diffuse.grid && !rays->length_km;
+    if (!ground && !grid && !sky->transmittance && frame->lights > 0)
         return 0;
     for (size_t first = 0; first < n; first += SKV_LANES) {
         skv_block block;
@@ -102,6 +122,10 @@ static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_ray
         skv_block_load(frame, n, first, rays, &block);
         bad |= block.bad;
         skv_block_columns(frame, has, &block, k);
+        for (int light = 0; grid && light < frame->lights; light++)
+            skv_grid_add(frame, light, first, &block, k, sky);
+        if (!ground && !sky->transmittance)
+            continue;
         skv_end_columns(frame, has, &block, k, &view);
 #if SKV_TERM_GROUND
         for (int light = 0; ground && light < frame->lights; light++)

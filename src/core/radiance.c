@@ -45,6 +45,7 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
 }
 
 #include "core/diffuse.h"
+#include "core/stages.h"
 
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
 /// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
@@ -220,7 +221,8 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
             bad |= skv_rule_midpoint(frame, light, n, rays, sky);
 #endif
     }
-    for (int light = 0; light < frame->lights && frame->diffuse.table; light++)
+    const int direct = frame->diffuse.table && (!frame->diffuse.grid || rays->length_km);
+    for (int light = 0; light < frame->lights && direct; light++)
         skv_diffuse_add(frame, light, n, rays, sky);
     bad |= skv_ends(frame, n, rays, sky);
     return bad ? SKV_ERR_DIRECTION : SKV_OK;

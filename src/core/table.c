@@ -4,6 +4,7 @@
 
 #include "skyvert/radiance.h"
 
+#include "core/fine_fit.h"
 #include "core/gather.h"
 #include "core/table_pack.h"
 
@@ -11,8 +12,8 @@
 
 skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
     static const skv_table_spec kinds[SKV_TABLE_KINDS] = {
-        {10, 4, 24, 0, {6, 4}, {8, 6}, {8, 5}, 0.0f, SKV_TABLE_PACKED},
-        {8, 3, 18, 0, {6, 4}, {6, 4}, {6, 4}, 0.0f, SKV_TABLE_PACKED},
+        {10, 3, 21, 0, {6, 4}, {8, 6}, {8, 7}, 0.0f, SKV_TABLE_PACKED},
+        {8, 2, 16, 3, {6, 4}, {6, 4}, {6, 5}, 0.0f, SKV_TABLE_PACKED},
     };
     if (!spec)
         return SKV_ERR_NULL;
@@ -142,6 +143,7 @@ static void skv_table_cell_begin(skv_table_builder *b) {
     if (b->pass == 1)
         b->frame.diffuse.table = NULL;
     memset(b->moment, 0, sizeof b->moment);
+    memset(b->source, 0, sizeof b->source);
 }
 
 static int skv_table_rays(const skv_table_builder *b) {
@@ -149,38 +151,43 @@ static int skv_table_rays(const skv_table_builder *b) {
     return 2 * b->spec.polar[later] * b->spec.azimuths[later];
 }
 
+/// What a gathered ray adds to the source of the kept species.
+static void skv_table_source(skv_table_builder *b, const skv_gather_ray *ray, const float radiance[]) {
+    const int kept = b->frame.diffuse.kept, bands = skv_bands(b->model);
+    (void)kept;
+    for (int i = 0; i < SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS; i++) {
+        float v[3];
+        skv_fine_direction(i, v);
+        const float p = ray->weight *
+                        skv_fine_phase(b->model->aerosol_phase == SKV_PHASE_CS, b->model->aerosol_g, v, ray->direction);
+        for (int band = 0; band < bands; band++)
+            b->source[i][band] += p * radiance[band];
+    }
+}
+
 /// Gathers the next rays of a cell. They are added one by one: the sum does not depend on how many come at a time.
 static void skv_table_gather(skv_table_builder *b, int count) {
-    const int later = b->pass > 1, bands = skv_bands(b->model), kept = b->frame.diffuse.kept;
-    const skv_frame_diffuse *const d = &b->frame.diffuse;
+    const int later = b->pass > 1, bands = skv_bands(b->model);
     const float h = b->frame.height_km, r = b->frame.radius_km + h;
     const float horizon = -skv_sqrtf(h * (b->frame.radius_km + r)) / r;
-    const float kernel_g = skv_third_root(skv_fabsf(d->moment[kept][2])) * d->aureole[kept];
+    const int even = b->frame.light[0].mu_s > 0.3f;
     skv_gather_ray ray[SKV_TABLE_STEP_RAYS];
     float radiance[SKV_TABLE_STEP_RAYS * SKV_BANDS_MAX];
     for (int i = 0; i < count; i++)
-        ray[i] = skv_gather_direction(horizon, b->spec.polar[later], b->spec.azimuths[later], b->ray + i);
+        ray[i] = skv_gather_direction(horizon, b->spec.polar[later], b->spec.azimuths[later], even, b->ray + i);
     const skv_rays rays = {ray[0].direction, sizeof ray[0], NULL, 0};
     const skv_sky sky = {radiance, 0, NULL, 0};
     (void)skv_radiance(&b->frame, (size_t)count, &rays, &sky);
     for (int i = 0; i < count; i++) {
-        float factor[SKV_GATHER_COUNT];
-        skv_gather_factors(&ray[i], d->toward_enu[0], kernel_g, factor);
-        for (int k = 0; k < SKV_GATHER_COUNT; k++)
+        float factor[SKV_GATHER_MOMENTS];
+        skv_gather_factors(&ray[i], factor);
+        for (int k = 0; k < SKV_GATHER_MOMENTS; k++)
             for (int band = 0; band < bands; band++)
                 b->moment[k][band] += ray[i].weight * radiance[i * bands + band] * factor[k];
+        if (b->row < b->work->detailed)
+            skv_table_source(b, &ray[i], radiance + i * bands);
     }
     b->ray += count;
-}
-
-/// The aureole that light scattered once by the kept species has at a cell, roughly.
-static float skv_table_expected(const skv_table_builder *b, int band, float mu_s) {
-    const int s = b->frame.diffuse.kept;
-    const skv_species *const sp = &b->model->species[s];
-    const float density = skv_exp2f(-b->frame.height_km * sp->inv_scale_log2e);
-    const float tau =
-        b->frame.aerosol_per_km[band] * density * sp->scale_height_km / skv_maxf(mu_s, SKV_AUREOLE_LOWEST);
-    return b->pass == 1 ? tau * skv_expf(-tau) : 0.0f;
 }
 
 /// The numbers of a cell after a pass: light scattered once and what was gathered of the table so far. The last pass
@@ -213,7 +220,8 @@ static float skv_table_log2(float x) {
 
 /// No radiance >= 0 has larger ratios to its mean; those over sines stay finite, for radiance about a light in the
 /// zenith is round.
-static const float skv_table_bound[SKV_TABLE_TERMS - 1] = {3.0f, 6.0f, 5.0f, 10.0f, 8.0f, 14.0f, 18.0f, 40.0f};
+static const float skv_table_bound[SKV_TABLE_TERMS - 1] = {3.0f,  6.0f,  5.0f,  10.0f, 8.0f,  40.0f,
+                                                           40.0f, 40.0f, 40.0f, 40.0f, 40.0f, 40.0f};
 
 static void skv_table_cell_band(skv_table_builder *b, int band) {
     skv_table *const t = b->work;
@@ -223,11 +231,16 @@ static void skv_table_cell_band(skv_table_builder *b, int band) {
     float *const ratio = log + (suns + skv_cells_count(t)) * bands + skv_cells_ratios(t, b->row, b->column) + i;
     const int terms = b->row < t->detailed ? SKV_TABLE_TERMS : 6, kept = b->frame.diffuse.kept;
     const float mu_s = skv_cells_mu_s(b->column, t->suns);
-    float m[SKV_GATHER_COUNT], now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];
-    for (int k = 0; k < SKV_GATHER_COUNT; k++)
+    const skv_frame_diffuse *const d = &b->frame.diffuse;
+    float m[SKV_GATHER_MOMENTS], source[SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS];
+    float now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];
+    for (int k = 0; k < SKV_GATHER_MOMENTS; k++)
         m[k] = b->moment[k][band];
-    skv_gather_fit(m, b->frame.diffuse.moment[kept], b->frame.diffuse.aureole[kept], mu_s,
-                   skv_table_expected(b, band, mu_s), now);
+    for (int k = 0; k < SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS; k++)
+        source[k] = b->source[k][band];
+    skv_gather_low(m, mu_s, now);
+    if (terms > 6)
+        skv_fine_fit(source, now, d->moment[kept], d->aureole[kept], d->toward_enu[0], mu_s, now + 6);
     old[0] = b->pass > 1 ? skv_exp2f(*mean) : 0.0f;
     for (int k = 1; k < terms; k++)
         old[k] = b->pass > 1 ? ratio[(size_t)(k - 1) * bands] * old[0] : 0.0f;
