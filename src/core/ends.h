@@ -26,26 +26,23 @@ static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, c
         sin_chi.v[l] = skv_minf(block->p_km.v[l] * p.inv_r.v[l], 1.0f);
     }
     skv_columns_up(frame, has, &p, &mu, &sin_chi, out);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) {
-                const int second = past.v[l] > 0.0f;
-                const float from = second && block->parts == 2 ? k[1].of[s].v[l] : k[0].of[s].v[l];
-                const float sigma = second ? -1.0f : -block->leg[0].dir.v[l];
-                // A ray of no length meets nothing, whatever the forms round to.
-                const int empty = !second && !(block->leg[0].b.v[l] > block->leg[0].a.v[l]);
-                out->of[s].v[l] = empty ? 0.0f : skv_maxf(from + sigma * out->of[s].v[l], 0.0f);
-            }
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) {
+            const int second = past.v[l] > 0.0f;
+            const float from = second && block->parts == 2 ? k[1].of[s].v[l] : k[0].of[s].v[l];
+            const float sigma = second ? -1.0f : -block->leg[0].dir.v[l];
+            // A ray of no length meets nothing, whatever the forms round to.
+            const int empty = !second && !(block->leg[0].b.v[l] > block->leg[0].a.v[l]);
+            out->of[s].v[l] = empty ? 0.0f : skv_maxf(from + sigma * out->of[s].v[l], 0.0f);
+        }
 }
 
 SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, const skv_columns *c, int band, int l) {
     float tau = 0.0f;
-    if (SKV_PRESENT(has, SKV_RAYLEIGH))
-        tau += frame->rayleigh_log2e_per_km[band] * c->of[SKV_RAYLEIGH].v[l];
-    if (SKV_PRESENT(has, SKV_AEROSOL))
-        tau += frame->aerosol_log2e_per_km[band] * c->of[SKV_AEROSOL].v[l];
-    if (SKV_PRESENT(has, SKV_OZONE))
-        tau += frame->ozone_log2e_per_km[band] * c->of[SKV_OZONE].v[l];
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        tau += frame->extinction_log2e_per_km[s][band] * c->of[s].v[l];
     return tau;
 }
 
@@ -67,9 +64,9 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
     }
     skv_points_above(frame, has, &h, &g);
     skv_columns_light(frame, has, &g, &rms, &c);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) c.of[s].v[l] += view->of[s].v[l];
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) c.of[s].v[l] += view->of[s].v[l];
     for (int l = 0; l < block->count; l++) {
         if (!(block->meets_ground.v[l] > 0.0f))
             continue;

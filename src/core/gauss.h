@@ -12,12 +12,12 @@
 #if SKV_RULE_GAUSS_EXP
 
 typedef struct skv_legs {
-    skv_lanes h_km, rm, rms, nu; ///< at the origin: altitude, r mu (>= 0), r mu_s, cos(leg direction, light)
-    skv_lanes a, b;              ///< lit range, km from the origin; b <= a: nothing
-    skv_lanes end;               ///< where the leg itself ends; b is that or where the shadow begins
-    skv_lanes p_km;              ///< r sin(zenith angle), constant along a ray
-    skv_lanes sigma;             ///< -1: the observer is at the origin's end, +1: at the far end
-    skv_lanes phase[2];          ///< Rayleigh, aerosol, 1/sr
+    skv_lanes h_km, rm, rms, nu;     ///< at the origin: altitude, r mu (>= 0), r mu_s, cos(leg direction, light)
+    skv_lanes a, b;                  ///< lit range, km from the origin; b <= a: nothing
+    skv_lanes end;                   ///< where the leg itself ends; b is that or where the shadow begins
+    skv_lanes p_km;                  ///< r sin(zenith angle), constant along a ray
+    skv_lanes sigma;                 ///< -1: the observer is at the origin's end, +1: at the far end
+    skv_lanes phase[SKV_SCATTERERS]; ///< 1/sr
     skv_columns k;
     float *out[SKV_LANES]; ///< where the radiance is added, [bands]
 } skv_legs;
@@ -51,13 +51,12 @@ SKV_INLINE void skv_legs_start(const skv_frame *frame, unsigned has, const skv_l
 SKV_INLINE void skv_legs_map(const skv_frame *frame, unsigned has, const skv_legs *leg, const skv_points *o,
                              const skv_lanes *rm, const skv_lanes *rms, skv_lanes *l_km, skv_lanes *k,
                              skv_lanes *whole) {
-    const float dense_r = frame->map_per_km[SKV_RAYLEIGH], dense_a = frame->map_per_km[SKV_AEROSOL];
+    const float *const dense = frame->map_per_km;
     SKV_EACH_LANE(l) {
         float extinction = 0.0f;
-        if (SKV_PRESENT(has, SKV_RAYLEIGH))
-            extinction += o->rho[SKV_RAYLEIGH].v[l] * dense_r;
-        if (SKV_PRESENT(has, SKV_AEROSOL))
-            extinction += o->rho[SKV_AEROSOL].v[l] * dense_a;
+        SKV_EACH_SCATTERER(s)
+        if (SKV_PRESENT(has, s))
+            extinction += o->rho[s].v[l] * dense[s];
         const float inv_r = o->inv_r.v[l];
         const float inv =
             skv_map_inverse(frame->map_scale * skv_map_scale(rms->v[l] * inv_r), rm->v[l] * inv_r, inv_r, extinction);
@@ -79,7 +78,7 @@ typedef struct skv_samples {
     skv_lanes mu_light, tangent_km;
 } skv_samples;
 
-/// Columns of two exponentials in closed form, in one pass.
+/// Columns of exponentials in closed form, in one pass.
 SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
     const skv_frame_limits *limits = &frame->limits;
     const float radius = frame->radius_km, radius2 = radius * radius, top = frame->top_km;
@@ -98,7 +97,7 @@ SKV_INLINE void skv_samples_closed(const skv_frame *frame, unsigned has, const s
             tangent_h = skv_minf(et / (radius + tangent_r), top);
         }
         const float m2 = skv_minf((rms * rms + (top - h) * (radius + rt + h)) * inv_rt2, limits->one);
-        for (int s = 0; s < 2; s++) {
+        SKV_EACH_SCATTERER(s) {
             if (!SKV_PRESENT(has, s))
                 continue;
             const skv_frame_species *sp = &frame->species[s];
@@ -155,17 +154,17 @@ SKV_INLINE void skv_samples_ozone(const skv_frame *frame, unsigned has, const sk
 /// Columns of any profiles by any backend.
 SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const skv_legs *leg, skv_samples *q) {
     skv_lanes *const mu = &q->mu_view, *const sin_view = &q->mu_light;
-    skv_columns view;
     skv_points_at(frame, has, &q->e, &q->p);
+    skv_columns_light(frame, has, &q->p, &q->rms, &q->c);
+    skv_columns view; // only now: what the light's columns were made in is free again
     SKV_EACH_LANE(l) {
         mu->v[l] = skv_clampf(q->rm.v[l] * q->p.inv_r.v[l], 0.0f, 1.0f);
         sin_view->v[l] = skv_minf(leg->p_km.v[l] * q->p.inv_r.v[l], 1.0f);
     }
     skv_columns_up(frame, has, &q->p, mu, sin_view, &view);
-    skv_columns_light(frame, has, &q->p, &q->rms, &q->c);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l)
     q->c.of[s].v[l] += skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * view.of[s].v[l], 0.0f);
 }
 

@@ -36,12 +36,12 @@ SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, c
         leg->p_km.v[l] = block->p_km.v[l];
         leg->sigma.v[l] = -dir;
     }
-    for (int s = 0; s < 2; s++)
-        if (SKV_PRESENT(has, s))
-            leg->phase[s] = toward->phase[s];
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            leg->k.of[s] = k->of[s];
+    SKV_EACH_SCATTERER(s)
+    if (SKV_PRESENT(has, s))
+        leg->phase[s] = toward->phase[s];
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        leg->k.of[s] = k->of[s];
 }
 
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
@@ -87,9 +87,11 @@ SKV_INLINE void skv_legs_copy(const skv_legs *from, unsigned l, skv_legs *to, un
     to->b.v[q] = from->b.v[l];
     to->p_km.v[q] = from->p_km.v[l];
     to->sigma.v[q] = from->sigma.v[l];
-    for (int s = 0; s < 2; s++)
+    SKV_EACH_SCATTERER(s)
+    if (SKV_PRESENT(SKV_HAS_BUILT, s))
         to->phase[s].v[q] = from->phase[s].v[l];
-    for (int s = 0; s < SKV_SPECIES; s++)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(SKV_HAS_BUILT, s))
         to->k.of[s].v[q] = from->k.of[s].v[l];
     to->out[q] = from->out[l];
 }

@@ -175,11 +175,10 @@ static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has,
     }
     skv_columns_up(frame, has, &o, &mu, &sin_chi, &k[0]);
     if (b->parts == 2) {
-        skv_points t;
-        skv_points_above(frame, has, &b->leg[1].h_km, &t);
-        skv_columns_tangent(frame, has, &t, &k[1]);
+        skv_points_above(frame, has, &b->leg[1].h_km, &o);
+        skv_columns_tangent(frame, has, &o, &k[1]);
     }
-    for (int s = 0; s < SKV_SPECIES; s++) {
+    SKV_EACH_SPECIES(s) {
         if (!SKV_PRESENT(has, s))
             continue;
         if (b->parts == 2)
@@ -190,16 +189,47 @@ static SKV_NOINLINE void skv_block_columns(const skv_frame *frame, unsigned has,
 
 /// What a light means to the rays of a block.
 typedef struct skv_block_light {
-    skv_lanes nu;       ///< cos(view, light)
-    skv_lanes cross2;   ///< 1 - nu^2, from the difference of the directions
-    skv_lanes climb;    ///< (view - nu light) . up
-    skv_lanes phase[2]; ///< Rayleigh, aerosol
+    skv_lanes nu;     ///< cos(view, light)
+    skv_lanes cross2; ///< 1 - nu^2, from the difference of the directions
+    skv_lanes climb;  ///< (view - nu light) . up
+    skv_lanes phase[SKV_SCATTERERS];
 } skv_block_light;
+
+/// The phase function of aerosol or dust. @param d skv_phase_distance().
+SKV_INLINE void skv_block_phase(const skv_model *model, int s, const skv_lanes *d, const skv_lanes *nu,
+                                skv_lanes *phase) {
+    const float g = model->g[s];
+#if SKV_PHASE_CORNETTE_SHANKS
+    if (!SKV_PHASE_HENYEY_GREENSTEIN || model->phase[s] == SKV_PHASE_CS)
+        SKV_EACH_LANE(l) phase->v[l] = skv_phase_cornette_shanks(g, d->v[l], nu->v[l]);
+#endif
+#if SKV_PHASE_HENYEY_GREENSTEIN
+    if (!SKV_PHASE_CORNETTE_SHANKS || model->phase[s] == SKV_PHASE_HG)
+        SKV_EACH_LANE(l) phase->v[l] = skv_phase_henyey_greenstein(g, d->v[l]);
+#endif
+    (void)nu;
+}
+
+#if SKV_TERM_DUST
+/// On its own: the frames without dust do not pay for it.
+static SKV_NOINLINE void skv_block_dust(const skv_frame *frame, int light, const skv_block *b,
+                                        skv_block_light *restrict out) {
+    const float g = frame->model->g[SKV_DUST], sign = g < 0.0f ? -1.0f : 1.0f;
+    const float *s = frame->light[light].direction_enu;
+    skv_lanes d;
+    SKV_EACH_LANE(l) {
+        const float dx = b->view[0].v[l] - sign * s[0], dy = b->view[1].v[l] - sign * s[1];
+        const float dz = b->view[2].v[l] - sign * s[2];
+        d.v[l] = skv_phase_distance(g, 0.5f * (dx * dx + dy * dy + dz * dz));
+    }
+    skv_block_phase(frame->model, SKV_DUST, &d, &out->nu, &out->phase[SKV_DUST]);
+}
+#endif
 
 static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, int light, const skv_block *b,
                                           skv_block_light *restrict out) {
     const float *s = frame->light[light].direction_enu;
-    const float g = frame->model->aerosol_g, sz = s[2];
+    const float g = frame->model->g[SKV_AEROSOL], sz = s[2];
     skv_lanes d;
     SKV_EACH_LANE(l) {
         const float x = b->view[0].v[l], y = b->view[1].v[l], z = b->view[2].v[l];
@@ -213,16 +243,12 @@ static SKV_NOINLINE void skv_block_toward(const skv_frame *frame, unsigned has, 
         d.v[l] = skv_phase_distance(g, g < 0.0f ? far : near);
     }
 #if SKV_TERM_AEROSOL
-    if (!SKV_PRESENT(has, SKV_AEROSOL))
-        return;
-#if SKV_PHASE_CORNETTE_SHANKS
-    if (!SKV_PHASE_HENYEY_GREENSTEIN || frame->model->aerosol_phase == SKV_PHASE_CS)
-        SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_cornette_shanks(g, d.v[l], out->nu.v[l]);
+    if (SKV_PRESENT(has, SKV_AEROSOL))
+        skv_block_phase(frame->model, SKV_AEROSOL, &d, &out->nu, &out->phase[SKV_AEROSOL]);
 #endif
-#if SKV_PHASE_HENYEY_GREENSTEIN
-    if (!SKV_PHASE_CORNETTE_SHANKS || frame->model->aerosol_phase == SKV_PHASE_HG)
-        SKV_EACH_LANE(l) out->phase[SKV_AEROSOL].v[l] = skv_phase_henyey_greenstein(g, d.v[l]);
-#endif
+#if SKV_TERM_DUST
+    if (SKV_PRESENT(has, SKV_DUST))
+        skv_block_dust(frame, light, b, out);
 #endif
     (void)has;
     (void)d;
