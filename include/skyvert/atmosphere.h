@@ -65,9 +65,9 @@ typedef struct skv_atmosphere {
     skv_profile aerosol;
     skv_phase aerosol_phase;
     float aerosol_g; ///< parameter of the phase function (Henyey-Greenstein: its mean cosine), [-0.9999, 0.9999]
-    float turbidity; ///< multiplies aerosol scattering and extinction, [0, 1e4]; 1 = as given [Keller08]
+    float turbidity; ///< multiplies scattering and extinction of aerosol and dust, [0, 1e4]; 1 = as given [Keller08]
 
-    /// A second layer (dust, smoke), with a phase function and a profile of its own; turbidity does not touch it.
+    /// A second layer (dust, smoke), with a phase function and a profile of its own.
     float dust_scattering_per_km[4]; ///< at density 1, [0, 1e4]
     float dust_extinction_per_km[4]; ///< at density 1, [dust_scattering_per_km, 1e4]
     skv_profile dust;
@@ -88,7 +88,12 @@ typedef enum skv_preset {
     SKV_PRESET_MARS = 2,
     SKV_PRESET_TINY = 3,
     SKV_PRESET_GIANT = 4,
-    SKV_PRESET_COUNT = 5
+    SKV_PRESET_EARTH_THIN = 5,  ///< the clear Earth with a fifth of its air, aerosol and ozone [Elek09]
+    SKV_PRESET_EARTH_DENSE = 6, ///< five times as much
+    SKV_PRESET_EARTH_X25 = 7,   ///< 25 times
+    SKV_PRESET_TITAN = 8,
+    SKV_PRESET_EARTH_SMOKE = 9, ///< the clear Earth under a layer of smoke
+    SKV_PRESET_COUNT = 10
 } skv_preset;
 
 /// An atmosphere without any species: Earth's radius, top at 60 km, given bands, everything else 0 or neutral.
@@ -97,7 +102,8 @@ typedef enum skv_preset {
 /// @return SKV_OK; SKV_ERR_NULL iff atmosphere is NULL; SKV_ERR_RANGE iff bands is not 3 or 4.
 skv_status skv_atmosphere_clear(skv_atmosphere *atmosphere, int32_t bands);
 
-/// A named planet; where its figures come from stands in README "Sources" and in src/core/presets.c.
+/// A named planet; where its figures come from stands in README "Sources" and in tools/fit/presets.py. Titan's profiles
+/// point at tables of the library.
 /// @return as skv_atmosphere_clear(); SKV_ERR_UNSUPPORTED iff there is no such preset.
 skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, int32_t bands);
 

@@ -75,11 +75,12 @@ static skv_status skv_check_particles(const float scattering[4], const float ext
 
 static skv_status skv_check_layers(const skv_atmosphere *a) {
     skv_status status = SKV_OK;
+    const int any = a->aerosol.kind != SKV_PROFILE_NONE || a->dust.kind != SKV_PROFILE_NONE;
+    if (any && !skv_within(a->turbidity, 0.0f, 1e4f))
+        return SKV_ERR_RANGE;
     if (a->aerosol.kind != SKV_PROFILE_NONE)
-        status = !skv_within(a->turbidity, 0.0f, 1e4f)
-                     ? SKV_ERR_RANGE
-                     : skv_check_particles(a->aerosol_scattering_per_km, a->aerosol_extinction_per_km, a->bands,
-                                           a->aerosol_phase, a->aerosol_g);
+        status = skv_check_particles(a->aerosol_scattering_per_km, a->aerosol_extinction_per_km, a->bands,
+                                     a->aerosol_phase, a->aerosol_g);
     if (status == SKV_OK && a->dust.kind != SKV_PROFILE_NONE)
         status = skv_check_particles(a->dust_scattering_per_km, a->dust_extinction_per_km, a->bands, a->dust_phase,
                                      a->dust_g);
@@ -158,7 +159,7 @@ static void skv_coefficients(skv_model *m, const skv_atmosphere *a, const skv_pr
     for (int s = 0; s < SKV_SPECIES; s++) {
         const skv_profile *p = profile[s];
         const float norm = p->kind == SKV_PROFILE_EXP_BACKGROUND ? 1.0f / (1.0f + p->background) : 1.0f;
-        const float amount = s == SKV_AEROSOL ? a->turbidity : 1.0f;
+        const float amount = s == SKV_AEROSOL || s == SKV_DUST ? a->turbidity : 1.0f;
         float most = 0.0f;
         for (int b = 0; b < a->bands && p->kind != SKV_PROFILE_NONE; b++) {
             if (s < SKV_SCATTERERS)

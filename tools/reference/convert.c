@@ -75,8 +75,8 @@ void ref_from_skyvert(const skv_atmosphere *from, double ground_km, ref_file *to
         a->albedo[i] = (double)from->albedo[i];
         a->rayleigh_scattering[i] = (double)from->rayleigh_scattering_per_km[i];
         a->rayleigh_absorption[i] = (double)from->rayleigh_absorption_per_km[i];
-        a->dust_scattering[i] = (double)from->dust_scattering_per_km[i];
-        a->dust_extinction[i] = (double)from->dust_extinction_per_km[i];
+        a->dust_scattering[i] = (double)from->dust_scattering_per_km[i] * (double)from->turbidity;
+        a->dust_extinction[i] = (double)from->dust_extinction_per_km[i] * (double)from->turbidity;
         a->aerosol_scattering[i] = (double)from->aerosol_scattering_per_km[i] * (double)from->turbidity;
         a->aerosol_extinction[i] = (double)from->aerosol_extinction_per_km[i] * (double)from->turbidity;
         a->ozone_absorption[i] = (double)from->ozone_absorption_per_km[i];
