@@ -16,7 +16,7 @@ extern "C" {
 typedef enum skv_profile_kind {
     SKV_PROFILE_NONE = 0,           ///< the species is absent
     SKV_PROFILE_EXPONENTIAL = 1,    ///< exp(-h/scale_height_km)
-    SKV_PROFILE_EXP_BACKGROUND = 2, ///< (exp(-h/scale_height_km) + background)/(1 + background); aerosol only
+    SKV_PROFILE_EXP_BACKGROUND = 2, ///< (exp(-h/scale_height_km) + background)/(1 + background); aerosol and dust
     SKV_PROFILE_US76 = 3,           ///< exp(-us76_a h^us76_b), h in km; 1 below 0
     SKV_PROFILE_TENT = 4,           ///< max(0, 1 - |h - peak_km|/half_width_km)
     SKV_PROFILE_LOGNORMAL = 5,      ///< exp(-k (ln h - mu)^2)/h, normalised to 1 at its peak h = exp(mu - 1/(2k))
@@ -57,6 +57,7 @@ typedef struct skv_atmosphere {
     float albedo[4];           ///< of the ground (Lambert), [0, 1]
 
     float rayleigh_scattering_per_km[4]; ///< at altitude 0, [0, 1e4]
+    float rayleigh_absorption_per_km[4]; ///< of the gas beside that (methane), at altitude 0, [0, 1e4]
     skv_profile rayleigh;
 
     float aerosol_scattering_per_km[4]; ///< at altitude 0, [0, 1e4]
@@ -64,7 +65,14 @@ typedef struct skv_atmosphere {
     skv_profile aerosol;
     skv_phase aerosol_phase;
     float aerosol_g; ///< parameter of the phase function (Henyey-Greenstein: its mean cosine), [-0.9999, 0.9999]
-    float turbidity; ///< multiplies aerosol scattering and extinction, [0, 1e4]; 1 = as given [Keller08]
+    float turbidity; ///< multiplies scattering and extinction of aerosol and dust, [0, 1e4]; 1 = as given [Keller08]
+
+    /// A second layer (dust, smoke), with a phase function and a profile of its own.
+    float dust_scattering_per_km[4]; ///< at density 1, [0, 1e4]
+    float dust_extinction_per_km[4]; ///< at density 1, [dust_scattering_per_km, 1e4]
+    skv_profile dust;
+    skv_phase dust_phase;
+    float dust_g; ///< as aerosol_g
 
     float ozone_absorption_per_km[4]; ///< at density 1, [0, 1e4]
     skv_profile ozone;
@@ -80,7 +88,12 @@ typedef enum skv_preset {
     SKV_PRESET_MARS = 2,
     SKV_PRESET_TINY = 3,
     SKV_PRESET_GIANT = 4,
-    SKV_PRESET_COUNT = 5
+    SKV_PRESET_EARTH_THIN = 5,  ///< the clear Earth with a fifth of its air, aerosol and ozone [Elek09]
+    SKV_PRESET_EARTH_DENSE = 6, ///< five times as much
+    SKV_PRESET_EARTH_X25 = 7,   ///< 25 times
+    SKV_PRESET_TITAN = 8,
+    SKV_PRESET_EARTH_SMOKE = 9, ///< the clear Earth under a layer of smoke
+    SKV_PRESET_COUNT = 10
 } skv_preset;
 
 /// An atmosphere without any species: Earth's radius, top at 60 km, given bands, everything else 0 or neutral.
@@ -89,9 +102,14 @@ typedef enum skv_preset {
 /// @return SKV_OK; SKV_ERR_NULL iff atmosphere is NULL; SKV_ERR_RANGE iff bands is not 3 or 4.
 skv_status skv_atmosphere_clear(skv_atmosphere *atmosphere, int32_t bands);
 
-/// A named planet; where its figures come from stands in README "Sources" and in src/core/presets.c.
+/// A named planet; where its figures come from stands in README "Sources" and in tools/fit/presets.py. Titan's profiles
+/// point at tables of the library.
 /// @return as skv_atmosphere_clear(); SKV_ERR_UNSUPPORTED iff there is no such preset.
 skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, int32_t bands);
+
+/// Kinds of matter, in this order: Rayleigh (the gas), aerosol, dust, ozone. The first SKV_SCATTERERS scatter.
+#define SKV_SPECIES    4
+#define SKV_SCATTERERS 3
 
 /// Size of a tabulated column: rows over altitude, columns over the ray's elevation, and the columns of tangent rays.
 #define SKV_COLUMN_ROWS     48
@@ -131,23 +149,21 @@ typedef struct skv_model {
     float albedo[4];
     float absorption_colour[4];
     /// Per unit of the relative densities of `species`:
-    float rayleigh_per_km[4];
-    float aerosol_per_km[4];
-    float aerosol_extinction_per_km[4];
-    float ozone_per_km[4];
-    skv_species species[3]; ///< Rayleigh, aerosol, ozone
-    int32_t breaks;         ///< altitudes where a scattering density has a corner: legs are cut there
+    float scattering_per_km[SKV_SCATTERERS][4];
+    float extinction_per_km[SKV_SPECIES][4]; ///< ozone: absorption
+    skv_species species[SKV_SPECIES];
+    int32_t breaks; ///< altitudes where a scattering density has a corner: legs are cut there
     float break_km[SKV_MODEL_BREAKS];
-    int32_t aerosol_phase;
-    float aerosol_g;
+    int32_t phase[SKV_SCATTERERS]; ///< skv_phase; Rayleigh's is not read
+    float g[SKV_SCATTERERS];
     int32_t chapman_valid; ///< 0: a scale height is over 1/100 of the radius; depth is integrated instead
 #if SKV_TERM_OZONE
     skv_column_table ozone_column;
     float ozone_density[SKV_DENSITY_ROWS]; ///< TABLE only
 #endif
 #if SKV_PROFILE_TABULATED
-    skv_column_table column[2];         ///< Rayleigh, aerosol
-    float density[2][SKV_DENSITY_ROWS]; ///< TABLE only
+    skv_column_table column[2 + SKV_TERM_DUST];         ///< Rayleigh, aerosol, dust
+    float density[2 + SKV_TERM_DUST][SKV_DENSITY_ROWS]; ///< TABLE only
 #endif
 } skv_model;
 

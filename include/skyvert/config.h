@@ -42,6 +42,10 @@
 #ifndef SKV_TERM_AEROSOL
 #define SKV_TERM_AEROSOL 1
 #endif
+/// A second layer that scatters and absorbs (dust, smoke).
+#ifndef SKV_TERM_DUST
+#define SKV_TERM_DUST 1
+#endif
 #ifndef SKV_TERM_OZONE
 #define SKV_TERM_OZONE 1
 #endif
@@ -58,7 +62,7 @@
 #define SKV_OUT_TRANSMITTANCE 1
 #endif
 
-/// Phase functions of the aerosol.
+/// Phase functions of aerosol and dust.
 #ifndef SKV_PHASE_HENYEY_GREENSTEIN
 #define SKV_PHASE_HENYEY_GREENSTEIN 1
 #endif
@@ -66,8 +70,8 @@
 #define SKV_PHASE_CORNETTE_SHANKS 1
 #endif
 
-/// Profiles of Rayleigh and aerosol other than exponential (with or without background): us76, tent, lognormal, table.
-/// Ozone always has them.
+/// Profiles of Rayleigh, aerosol and dust other than exponential (with or without background): us76, tent, lognormal,
+/// table. Ozone always has them.
 #ifndef SKV_PROFILE_TABULATED
 #define SKV_PROFILE_TABULATED 1
 #endif

@@ -29,9 +29,10 @@ typedef enum skv_tier { SKV_TIER_FAST = 0, SKV_TIER_STANDARD = 1, SKV_TIER_HIGH 
 enum {
     SKV_WITH_RAYLEIGH = 1,
     SKV_WITH_AEROSOL = 2,
-    SKV_WITH_OZONE = 4,
-    SKV_WITH_GROUND = 8, ///< the light a ray's ground end sends back (lit by the lights' direct beams)
-    SKV_WITH_ALL = 15
+    SKV_WITH_DUST = 4,
+    SKV_WITH_OZONE = 8,
+    SKV_WITH_GROUND = 16, ///< the light a ray's ground end sends back (lit by the lights' direct beams)
+    SKV_WITH_ALL = 31
 };
 
 #define SKV_SAMPLES_MAX 64
@@ -92,8 +93,8 @@ typedef struct skv_frame_diffuse {
     int32_t kept;                        ///< the species whose aureole the table keeps
     float inv_span;                      ///< of the table's rows, 1/km
     float offset_km;                     ///< the frame's ground above the table's
-    float moment[2][4];                  ///< of the scatterers' phase functions, degrees 1 to 4
-    float aureole[2];                    ///< g of light that they scatter out of the aureole
+    float moment[SKV_SCATTERERS][4];     ///< of the scatterers' phase functions, degrees 1 to 4
+    float aureole[SKV_SCATTERERS];       ///< g of light that they scatter out of the aureole
     float toward_enu[SKV_LIGHTS_MAX][3]; ///< centre of the aureole
 } skv_frame_diffuse;
 
@@ -113,20 +114,17 @@ typedef struct skv_frame {
     float height_km; ///< of the observer above the ground, clamped to it
     float top_km;    ///< of the air above the ground
     skv_frame_limits limits;
-    skv_frame_species species[3];
+    skv_frame_species species[SKV_SPECIES];
     int32_t breaks;                   ///< altitudes above the ground at which legs are cut, ascending
     float break_km[SKV_FRAME_BREAKS]; ///< (src/core/slices.h)
     uint32_t break_inbound;           ///< bit i: only on legs towards the observer
     float fog_per_km;                 ///< extinction at the observer where that is fog, else 0
     float inner_scale_km;             ///< of the exponential map of the inner depth
     float map_scale;                  ///< largest scale height over 8 km
-    float map_per_km[2];              ///< extinction that shortens the map of gauss-exp, per unit of relative density
+    float map_per_km[SKV_SCATTERERS]; ///< extinction that shortens the map of gauss-exp, per unit of relative density
     /// Per unit of relative density (exponential species: of that at the ground); extinction times log2(e).
-    float rayleigh_per_km[4];
-    float aerosol_per_km[4];
-    float rayleigh_log2e_per_km[4];
-    float aerosol_log2e_per_km[4];
-    float ozone_log2e_per_km[4];
+    float scattering_per_km[SKV_SCATTERERS][4];
+    float extinction_log2e_per_km[SKV_SPECIES][4];
     skv_frame_diffuse diffuse;
 } skv_frame;
 

@@ -83,12 +83,14 @@ typedef struct skv_table_builder {
     skv_table *table; ///< the result; written at the end, cell by cell
     skv_table *work;  ///< the table so far, in floats
     float *first;     ///< [cells][bands][9] light scattered once; [suns][bands] its irradiance of the ground
-    float *change;    ///< [cells][bands] what the last pass added to the mean radiance
     int32_t pass;     ///< 1 ... orders gather; then packing; then checking; then done
     int32_t row, column, ray;
     skv_frame frame;                 ///< of the cell in work
     float moment[7][SKV_BANDS_MAX];  ///< its gathered moments
     float source[60][SKV_BANDS_MAX]; ///< what its forward-scattering species sends in some directions
+    float change[SKV_BANDS_MAX];     ///< of the mean radiance over all cells, in this pass
+    float before[SKV_BANDS_MAX];     ///< in the last one
+    float rate[SKV_BANDS_MAX];       ///< of the series that the rest is taken as
     float largest[SKV_TABLE_TERMS - 1];
     uint32_t sum;
 } skv_table_builder;

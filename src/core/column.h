@@ -17,7 +17,7 @@ typedef struct skv_points {
     skv_lanes h_km;
     skv_lanes r_km;
     skv_lanes inv_r, root_r;
-    skv_lanes rho[2];
+    skv_lanes rho[SKV_SCATTERERS];
 } skv_points;
 
 /// From E = r^2 - R^2 >= 0.
@@ -30,11 +30,11 @@ SKV_INLINE void skv_points_at(const skv_frame *frame, unsigned has, const skv_la
         p->inv_r.v[l] = 1.0f / r;
         p->root_r.v[l] = skv_root(r);
     }
-    for (int s = 0; s < 2; s++)
-        if (SKV_PRESENT(has, s)) {
-            const float k = -frame->species[s].inv_scale_log2e;
-            SKV_EACH_LANE(l) p->rho[s].v[l] = skv_decay(&frame->limits, p->h_km.v[l] * k);
-        }
+    SKV_EACH_SCATTERER(s)
+    if (SKV_PRESENT(has, s)) {
+        const float k = -frame->species[s].inv_scale_log2e;
+        SKV_EACH_LANE(l) p->rho[s].v[l] = skv_decay(&frame->limits, p->h_km.v[l] * k);
+    }
 }
 
 /// From altitudes.
@@ -65,7 +65,7 @@ SKV_INLINE void skv_scattering_density(const skv_frame *frame, unsigned has, con
 
 SKV_INLINE void skv_columns_background(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *mu,
                                        float factor, skv_columns *out) {
-    for (int s = 0; s < 2; s++) {
+    SKV_EACH_SCATTERER(s) {
         const float background = factor * frame->species[s].background;
         if (SKV_PRESENT(has, s) && background > 0.0f)
             SKV_EACH_LANE(l)
@@ -80,7 +80,7 @@ static SKV_NOINLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned
                                                 const skv_lanes *mu, const skv_lanes *sin_chi,
                                                 skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
-    for (int s = 0; s < 2; s++) {
+    SKV_EACH_SCATTERER(s) {
         if (!SKV_PRESENT(has, s))
             continue;
         const float ck = frame->species[s].chapman_ck, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
@@ -100,7 +100,7 @@ static SKV_NOINLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned
 static SKV_NOINLINE void skv_columns_chapman_tangent(const skv_frame *frame, unsigned bits, const skv_points *p,
                                                      skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
-    for (int s = 0; s < 2; s++) {
+    SKV_EACH_SCATTERER(s) {
         if (!SKV_PRESENT(has, s))
             continue;
         const float a = 2.0f * frame->species[s].chapman_a, z = frame->species[s].chapman_z;
@@ -120,15 +120,28 @@ static SKV_NOINLINE void skv_columns_chapman_tangent(const skv_frame *frame, uns
 #endif
 
 #if SKV_DEPTH_INNER
-/// Densities of all species at once.
-SKV_INLINE void skv_densities(const skv_frame *frame, unsigned has, const skv_points *p, skv_columns *out) {
+/// Densities of all species at once, from E = r^2 - R^2: what skv_points_at() and skv_scattering_density() give.
+SKV_INLINE void skv_densities(const skv_frame *frame, unsigned has, const skv_lanes *e, skv_columns *out) {
     const skv_model *model = frame->model;
-    for (int s = 0; s < 2; s++)
-        if (SKV_PRESENT(has, s))
-            skv_scattering_density(frame, has, p, s, &out->of[s]);
+    const float radius = frame->radius_km, top = frame->top_km, radius2 = radius * radius;
+    skv_lanes h;
+    SKV_EACH_LANE(l) h.v[l] = skv_minf(e->v[l] / (radius + skv_root(radius2 + e->v[l])), top);
+    SKV_EACH_SPECIES(s) {
+        if (s >= SKV_SCATTERERS || !SKV_PRESENT(has, s))
+            continue;
+#if SKV_PROFILE_TABULATED
+        if ((has & SKV_HAS_RATIO) != 0 && model->species[s].column != 0) {
+            skv_density_lanes(&model->species[s], skv_density_table(model, s), model->top_km, frame->ground_km, &h,
+                              &out->of[s]);
+            continue;
+        }
+#endif
+        const float k = -frame->species[s].inv_scale_log2e, background = frame->species[s].background;
+        SKV_EACH_LANE(l) out->of[s].v[l] = skv_decay(&frame->limits, h.v[l] * k) + background;
+    }
 #if SKV_TERM_OZONE
     if (SKV_PRESENT(has, SKV_OZONE))
-        skv_density_lanes(&model->species[SKV_OZONE], model->ozone_density, model->top_km, frame->ground_km, &p->h_km,
+        skv_density_lanes(&model->species[SKV_OZONE], model->ozone_density, model->top_km, frame->ground_km, &h,
                           &out->of[SKV_OZONE]);
 #endif
     (void)model;
@@ -148,10 +161,10 @@ static SKV_NOINLINE void skv_columns_inner_up(const skv_frame *frame, unsigned b
         l_km.v[l] = hs / (0.5f * c + skv_root(0.25f * c * c + 0.5f * hs * p->inv_r.v[l]));
         k.v[l] = skv_log1pf(top / l_km.v[l]);
     }
-    for (int s = 0; s < SKV_SPECIES; s++)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
         SKV_EACH_LANE(l) out->of[s].v[l] = 0.0f;
     for (int i = 0; i < m; i++) {
-        skv_points q;
         skv_columns rho;
         skv_lanes ds, eq;
         SKV_EACH_LANE(l) {
@@ -160,11 +173,10 @@ static SKV_NOINLINE void skv_columns_inner_up(const skv_frame *frame, unsigned b
             ds.v[l] = weight[i] * k.v[l] * l_km.v[l] * e;
             eq.v[l] = skv_maxf(h * (2.0f * radius + h) + s * (2.0f * p->r_km.v[l] * mu->v[l] + s), 0.0f);
         }
-        skv_points_at(frame, has, &eq, &q);
-        skv_densities(frame, has, &q, &rho);
-        for (int s = 0; s < SKV_SPECIES; s++)
-            if (SKV_PRESENT(has, s))
-                SKV_EACH_LANE(l) out->of[s].v[l] += ds.v[l] * rho.of[s].v[l];
+        skv_densities(frame, has, &eq, &rho);
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l) out->of[s].v[l] += ds.v[l] * rho.of[s].v[l];
     }
 }
 #endif
@@ -191,7 +203,8 @@ SKV_INLINE void skv_columns_tangent(const skv_frame *frame, unsigned has, const 
         skv_lanes mu;
         SKV_EACH_LANE(l) mu.v[l] = 0.0f;
         skv_columns_inner_up(frame, has, p, &mu, out);
-        for (int s = 0; s < SKV_SPECIES; s++)
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
             SKV_EACH_LANE(l) out->of[s].v[l] *= 2.0f;
         return;
     }
@@ -206,7 +219,7 @@ SKV_INLINE void skv_columns_tangent(const skv_frame *frame, unsigned has, const 
 SKV_INLINE void skv_columns_cut_top(const skv_frame *frame, unsigned has, const skv_points *p, const skv_lanes *rm,
                                     skv_columns *out) {
     const float top = frame->top_km, rt = frame->radius_km + top, inv_rt2 = 1.0f / (rt * rt);
-    for (int s = 0; s < 2; s++) {
+    SKV_EACH_SCATTERER(s) {
         const float cut = frame->species[s].top_column, kx = frame->species[s].top_k;
         if (!SKV_PRESENT(has, s) || !(cut > 0.0f))
             continue;
@@ -237,18 +250,27 @@ SKV_INLINE void skv_columns_light(const skv_frame *frame, unsigned has, const sk
         e.v[l] = skv_maxf(p->h_km.v[l] * (2.0f * radius + p->h_km.v[l]) - rms->v[l] * rms->v[l], 0.0f);
         skv_points_at(frame, has, &e, &t);
         skv_columns_tangent(frame, has, &t, &both);
-        for (int s = 0; s < SKV_SPECIES; s++)
-            if (SKV_PRESENT(has, s))
-                SKV_EACH_LANE(l) {
-                    const float up = out->of[s].v[l], down = both.of[s].v[l] - up;
-                    out->of[s].v[l] = rms->v[l] < 0.0f ? down : up;
-                }
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l) {
+                const float up = out->of[s].v[l], down = both.of[s].v[l] - up;
+                out->of[s].v[l] = rms->v[l] < 0.0f ? down : up;
+            }
     }
     if ((has & SKV_HAS_CUT) != 0)
         skv_columns_cut_top(frame, has, p, rms, out);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) out->of[s].v[l] = skv_maxf(out->of[s].v[l], 0.0f);
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) out->of[s].v[l] = skv_maxf(out->of[s].v[l], 0.0f);
+}
+
+/// Optical depth of columns times log2(e).
+SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, const skv_columns *c, int band, int l) {
+    float tau = 0.0f;
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        tau += frame->extinction_log2e_per_km[s][band] * c->of[s].v[l];
+    return tau;
 }
 
 #endif

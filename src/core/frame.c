@@ -78,7 +78,7 @@ static void skv_frame_species_init(skv_frame *f, int s) {
     // Negligible where even forty times it, along the horizon, is under 1e-6 of optical depth.
     float most = 0.0f;
     for (int b = 0; b < skv_bands(f->model); b++)
-        most = skv_maxf(most, s == SKV_RAYLEIGH ? f->rayleigh_log2e_per_km[b] : f->aerosol_log2e_per_km[b]);
+        most = skv_maxf(most, f->extinction_log2e_per_km[s][b]);
     out->top_column = sp->column == 0 && 40.0f * beyond * most > 1e-6f ? beyond : 0.0f;
     out->top_k = 2.54647909f * scale / (f->radius_km + f->top_km);
 }
@@ -86,19 +86,18 @@ static void skv_frame_species_init(skv_frame *f, int s) {
 static void skv_frame_coefficients(skv_frame *f) {
     const skv_model *m = f->model;
     const float log2e = 1.44269504f;
-    float at_ground[2];
-    for (int s = 0; s < 2; s++)
-        at_ground[s] =
-            m->species[s].column == 0 ? skv_minf(skv_exp2f(-f->ground_km * m->species[s].inv_scale_log2e), 1e6f) : 1.0f;
     const int bands = skv_bands(m);
-    for (int b = 0; b < bands; b++) {
-        f->rayleigh_per_km[b] = m->rayleigh_per_km[b] * at_ground[0];
-        f->aerosol_per_km[b] = m->aerosol_per_km[b] * at_ground[1];
-        f->rayleigh_log2e_per_km[b] = f->rayleigh_per_km[b] * log2e;
-        f->aerosol_log2e_per_km[b] = m->aerosol_extinction_per_km[b] * at_ground[1] * log2e;
-        f->ozone_log2e_per_km[b] = m->ozone_per_km[b] * log2e;
-        f->map_per_km[0] += f->rayleigh_per_km[b] / (float)bands;
-        f->map_per_km[1] += m->aerosol_extinction_per_km[b] * at_ground[1] / (float)bands;
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        const skv_species *sp = &m->species[s];
+        const float at_ground = sp->column == 0 ? skv_minf(skv_exp2f(-f->ground_km * sp->inv_scale_log2e), 1e6f) : 1.0f;
+        for (int b = 0; b < bands; b++) {
+            const float extinction = m->extinction_per_km[s][b] * at_ground;
+            f->extinction_log2e_per_km[s][b] = extinction * log2e;
+            if (s >= SKV_SCATTERERS)
+                continue;
+            f->scattering_per_km[s][b] = m->scattering_per_km[s][b] * at_ground;
+            f->map_per_km[s] += extinction / (float)bands;
+        }
     }
     float lo = 1e30f, hi = 0.0f;
     for (int s = 0; s < SKV_SPECIES; s++) {
@@ -131,7 +130,7 @@ static void skv_frame_breaks(skv_frame *f) {
     float fog = 0.0f;
     for (int i = 0; i < f->model->breaks; i++)
         skv_frame_break(f, f->model->break_km[i] - f->ground_km, 0);
-    for (int s = 0; s < 2; s++) {
+    for (int s = 0; s < SKV_SCATTERERS; s++) {
         const skv_species *sp = &f->model->species[s];
         if (f->species[s].kind == SKV_PROFILE_NONE)
             continue;
@@ -177,7 +176,7 @@ static skv_status skv_frame_adjust(skv_frame *f) {
         q->samples = 6;
     // The cut at the top is a small correction of the closed form only where little air is above it.
     int closed = f->model->chapman_valid;
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < SKV_SCATTERERS; s++)
         if (f->model->species[s].kind != SKV_PROFILE_NONE && f->model->species[s].column == 0)
             closed &= f->top_km * f->model->species[s].inv_scale_log2e > 5.6f;
     if (q->depth == SKV_DEPTH_BY_CHAPMAN && !closed && (SKV_DEPTH_INNER || !f->model->chapman_valid)) {

@@ -7,18 +7,27 @@
 
 /// The species whose aureole a table keeps: of those that scatter forward the one that scatters most.
 static int skv_kept_species(const skv_model *m) {
-    (void)m;
-    return SKV_AEROSOL;
+    int kept = SKV_AEROSOL;
+    float most = 0.0f;
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        float sum = 0.0f;
+        for (int b = 0; b < skv_bands(m); b++)
+            sum += m->scattering_per_km[s][b] * m->species[s].scale_height_km * skv_fabsf(m->g[s]);
+        kept = m->species[s].kind != SKV_PROFILE_NONE && sum > most ? s : kept;
+        most = skv_maxf(most, sum);
+    }
+    return kept;
 }
 
 static void skv_diffuse_moments(const skv_model *m, skv_frame_diffuse *d) {
     for (int l = 1; l <= 4; l++) {
         d->moment[SKV_RAYLEIGH][l - 1] = l == 2 ? 0.1f : 0.0f;
-        d->moment[SKV_AEROSOL][l - 1] = skv_moment(m->aerosol_phase == SKV_PHASE_CS, m->aerosol_g, l);
+        for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++)
+            d->moment[s][l - 1] = skv_moment(m->phase[s] == SKV_PHASE_CS, m->g[s], l);
     }
     d->kept = skv_kept_species(m);
     // The aureole's shape times a phase function is the shape of another g: it is matched at degree 3.
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < SKV_SCATTERERS; s++)
         d->aureole[s] = skv_third_root(d->moment[d->kept][2] * d->moment[s][2]);
 }
 

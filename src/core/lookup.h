@@ -78,18 +78,18 @@ SKV_INLINE void skv_lookup_tangent(const skv_frame *frame, const skv_column_tabl
     SKV_EACH_LANE(l) value->v[l] = k->v00.v[l] + k->wx.v[l] * (k->v01.v[l] - k->v00.v[l]);
 }
 
-/// Columns upward: ozone's written, those of Rayleigh and aerosol multiplied by their ratio.
+/// Columns upward: ozone's written, those of what scatters multiplied by their ratio.
 SKV_INLINE void skv_columns_tables_up(const skv_frame *frame, unsigned has, const skv_lanes *h_km, const skv_lanes *mu,
                                       skv_columns *out) {
     skv_lanes t, ratio;
     skv_lookup k;
     SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * mu->v[l]);
 #if SKV_PROFILE_TABULATED
-    for (int s = 0; s < 2; s++)
-        if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
-            skv_lookup_column(frame, skv_column_table_of(frame->model, s), 1, h_km, &t, &k, &ratio);
-            SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
-        }
+    SKV_EACH_SCATTERER(s)
+    if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
+        skv_lookup_column(frame, skv_column_table_of(frame->model, s), 1, h_km, &t, &k, &ratio);
+        SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
+    }
 #endif
 #if SKV_TERM_OZONE
     if (SKV_PRESENT(has, SKV_OZONE)) {
@@ -105,11 +105,11 @@ SKV_INLINE void skv_columns_tables_tangent(const skv_frame *frame, unsigned has,
     skv_lanes ratio;
     skv_lookup k;
 #if SKV_PROFILE_TABULATED
-    for (int s = 0; s < 2; s++)
-        if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
-            skv_lookup_tangent(frame, skv_column_table_of(frame->model, s), 1, h_km, &k, &ratio);
-            SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
-        }
+    SKV_EACH_SCATTERER(s)
+    if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
+        skv_lookup_tangent(frame, skv_column_table_of(frame->model, s), 1, h_km, &k, &ratio);
+        SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
+    }
 #endif
 #if SKV_TERM_OZONE
     if (SKV_PRESENT(has, SKV_OZONE)) {

@@ -22,26 +22,26 @@ SKV_INLINE void skv_midpoint_columns(const skv_frame *frame, unsigned has, const
                                      const skv_lanes *length_km, skv_columns *out) {
     const int m = frame->quality.depth_samples, square = SKV_IS_KELLER(frame);
     const float radius = frame->radius_km, step = 1.0f / (float)m;
-    for (int s = 0; s < SKV_SPECIES; s++)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
         SKV_EACH_LANE(l) out->of[s].v[l] = 0.0f;
     for (int j = 0; j < m; j++) {
         const float x0 = (float)j * step, x1 = (float)(j + 1) * step;
         const float y0 = square ? x0 * x0 : x0, y1 = square ? x1 * x1 : x1;
         const float middle = 0.5f * (y0 + y1), width = y1 - y0;
-        skv_points q;
         skv_columns rho;
         skv_lanes e;
         SKV_EACH_LANE(l) {
             const float s = middle * length_km->v[l], h = h_km->v[l];
             e.v[l] = skv_maxf(h * (2.0f * radius + h) + s * (2.0f * rm->v[l] + s), 0.0f);
         }
-        skv_points_at(frame, has, &e, &q);
-        skv_densities(frame, has, &q, &rho);
-        for (int s = 0; s < SKV_SPECIES; s++)
-            if (SKV_PRESENT(has, s))
-                SKV_EACH_LANE(l) out->of[s].v[l] += width * rho.of[s].v[l];
+        skv_densities(frame, has, &e, &rho);
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l) out->of[s].v[l] += width * rho.of[s].v[l];
     }
-    for (int s = 0; s < SKV_SPECIES; s++)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
         SKV_EACH_LANE(l) out->of[s].v[l] *= length_km->v[l];
 }
 #endif
@@ -60,7 +60,7 @@ static SKV_NOINLINE void skv_midpoint_begin(const skv_frame *frame, unsigned has
     if ((has & SKV_HAS_INNER) != 0)
         return;
     skv_block_columns(frame, has, block, k);
-    for (int s = 0; s < SKV_SPECIES; s++) {
+    SKV_EACH_SPECIES(s) {
         if (!SKV_PRESENT(has, s))
             continue;
         ray->in.of[s] = k[0].of[s];
@@ -86,7 +86,8 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
         }
         skv_midpoint_columns(frame, has, &p->h_km, rms, &length, c);
         skv_midpoint_columns(frame, has, &p->h_km, &back, s_km, &view);
-        for (int s = 0; s < SKV_SPECIES; s++)
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
             SKV_EACH_LANE(l) c->of[s].v[l] += view.of[s].v[l];
         return;
     }
@@ -100,13 +101,13 @@ SKV_INLINE void skv_midpoint_depth(const skv_frame *frame, unsigned has, const s
     }
     skv_columns_up(frame, has, p, &mu, &sin_chi, &view);
     skv_columns_light(frame, has | SKV_HAS_DOWN, p, rms, c);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) {
-                const float toward =
-                    rm->v[l] < 0.0f ? ray->in.of[s].v[l] + view.of[s].v[l] : ray->out.of[s].v[l] - view.of[s].v[l];
-                c->of[s].v[l] += skv_maxf(toward, 0.0f);
-            }
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) {
+            const float toward =
+                rm->v[l] < 0.0f ? ray->in.of[s].v[l] + view.of[s].v[l] : ray->out.of[s].v[l] - view.of[s].v[l];
+            c->of[s].v[l] += skv_maxf(toward, 0.0f);
+        }
 #endif
     (void)ray;
     (void)s_km;

@@ -40,7 +40,9 @@ static skv_status skv_check_profile(const skv_profile *p, int species) {
     case SKV_PROFILE_EXPONENTIAL:
         return scale ? SKV_OK : SKV_ERR_RANGE;
     case SKV_PROFILE_EXP_BACKGROUND:
-        return scale && species == SKV_AEROSOL && skv_within(p->background, 0.0f, 1.0f) ? SKV_OK : SKV_ERR_RANGE;
+        return scale && (species == SKV_AEROSOL || species == SKV_DUST) && skv_within(p->background, 0.0f, 1.0f)
+                   ? SKV_OK
+                   : SKV_ERR_RANGE;
     case SKV_PROFILE_US76:
         return skv_within(p->us76_a, 1e-6f, 10.0f) && skv_within(p->us76_b, 0.5f, 3.0f) ? SKV_OK : SKV_ERR_RANGE;
     case SKV_PROFILE_TENT:
@@ -56,21 +58,34 @@ static skv_status skv_check_profile(const skv_profile *p, int species) {
     }
 }
 
-static skv_status skv_check_aerosol(const skv_atmosphere *a) {
-    const int n = a->bands;
-    if (a->aerosol.kind == SKV_PROFILE_NONE)
-        return SKV_OK;
-    if (!skv_all_within(a->aerosol_scattering_per_km, n, 0.0f, 1e4f) || !skv_within(a->aerosol_g, -0.9999f, 0.9999f) ||
-        !skv_within(a->turbidity, 0.0f, 1e4f))
+/// The coefficients and the phase function of aerosol or dust.
+static skv_status skv_check_particles(const float scattering[4], const float extinction[4], int n, skv_phase phase,
+                                      float g) {
+    if (!skv_all_within(scattering, n, 0.0f, 1e4f) || !skv_within(g, -0.9999f, 0.9999f))
         return SKV_ERR_RANGE;
     for (int b = 0; b < n; b++)
-        if (!skv_within(a->aerosol_extinction_per_km[b], a->aerosol_scattering_per_km[b], 1e4f))
+        if (!skv_within(extinction[b], scattering[b], 1e4f))
             return SKV_ERR_RANGE;
-    if (a->aerosol_phase == SKV_PHASE_HG)
+    if (phase == SKV_PHASE_HG)
         return SKV_PHASE_HENYEY_GREENSTEIN ? SKV_OK : SKV_ERR_UNSUPPORTED;
-    if (a->aerosol_phase == SKV_PHASE_CS)
+    if (phase == SKV_PHASE_CS)
         return SKV_PHASE_CORNETTE_SHANKS ? SKV_OK : SKV_ERR_UNSUPPORTED;
     return SKV_ERR_RANGE;
+}
+
+static skv_status skv_check_layers(const skv_atmosphere *a) {
+    skv_status status = SKV_OK;
+    const int any = a->aerosol.kind != SKV_PROFILE_NONE || a->dust.kind != SKV_PROFILE_NONE;
+    if (any && !skv_within(a->turbidity, 0.0f, 1e4f))
+        return SKV_ERR_RANGE;
+    if (a->aerosol.kind != SKV_PROFILE_NONE)
+        status = skv_check_particles(a->aerosol_scattering_per_km, a->aerosol_extinction_per_km, a->bands,
+                                     a->aerosol_phase, a->aerosol_g);
+    if (status == SKV_OK && a->dust.kind != SKV_PROFILE_NONE)
+        status = skv_check_particles(a->dust_scattering_per_km, a->dust_extinction_per_km, a->bands, a->dust_phase,
+                                     a->dust_g);
+    // Without its dust a planet of dust would be wrong in silence.
+    return status == SKV_OK && a->dust.kind != SKV_PROFILE_NONE && !SKV_TERM_DUST ? SKV_ERR_UNSUPPORTED : status;
 }
 
 static skv_status skv_check(const skv_atmosphere *a) {
@@ -87,12 +102,13 @@ static skv_status skv_check(const skv_atmosphere *a) {
     for (int b = 1; b < n; b++)
         ok &= a->wavelength_nm[b] > a->wavelength_nm[b - 1];
     if (a->rayleigh.kind != SKV_PROFILE_NONE)
-        ok &= skv_all_within(a->rayleigh_scattering_per_km, n, 0.0f, 1e4f);
+        ok &= skv_all_within(a->rayleigh_scattering_per_km, n, 0.0f, 1e4f) &&
+              skv_all_within(a->rayleigh_absorption_per_km, n, 0.0f, 1e4f);
     if (a->ozone.kind != SKV_PROFILE_NONE)
         ok &= skv_all_within(a->ozone_absorption_per_km, n, 0.0f, 1e4f);
     if (!ok)
         return SKV_ERR_RANGE;
-    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+    const skv_profile *profile[SKV_SPECIES] = {&a->rayleigh, &a->aerosol, &a->dust, &a->ozone};
     for (int s = 0; s < SKV_SPECIES; s++) {
         const skv_status status = skv_check_profile(profile[s], s);
         if (status != SKV_OK)
@@ -100,7 +116,7 @@ static skv_status skv_check(const skv_atmosphere *a) {
         if (!SKV_PROFILE_TABULATED && s != SKV_OZONE && profile[s]->kind > SKV_PROFILE_EXP_BACKGROUND)
             return SKV_ERR_UNSUPPORTED;
     }
-    return skv_check_aerosol(a);
+    return skv_check_layers(a);
 }
 
 /// Parameters of a density, and which form its column takes.
@@ -135,29 +151,30 @@ static void skv_species_init(skv_species *sp, const skv_profile *p, int species,
 }
 
 /// Coefficients per unit of the species' relative density; the species is dropped where all are 0.
-static void skv_coefficients(skv_model *m, const skv_atmosphere *a) {
-    float most[3] = {0.0f, 0.0f, 0.0f};
-    const float norm = a->aerosol.kind == SKV_PROFILE_EXP_BACKGROUND ? 1.0f / (1.0f + a->aerosol.background) : 1.0f;
-    for (int b = 0; b < a->bands; b++) {
-        if (a->rayleigh.kind != SKV_PROFILE_NONE)
-            m->rayleigh_per_km[b] = a->rayleigh_scattering_per_km[b];
-        if (a->aerosol.kind != SKV_PROFILE_NONE) {
-            m->aerosol_per_km[b] = a->aerosol_scattering_per_km[b] * a->turbidity * norm;
-            m->aerosol_extinction_per_km[b] = a->aerosol_extinction_per_km[b] * a->turbidity * norm;
+static void skv_coefficients(skv_model *m, const skv_atmosphere *a, const skv_profile *const profile[SKV_SPECIES]) {
+    const float *const scattering[SKV_SCATTERERS] = {a->rayleigh_scattering_per_km, a->aerosol_scattering_per_km,
+                                                     a->dust_scattering_per_km};
+    const float *const extinction[SKV_SPECIES] = {a->rayleigh_absorption_per_km, a->aerosol_extinction_per_km,
+                                                  a->dust_extinction_per_km, a->ozone_absorption_per_km};
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        const skv_profile *p = profile[s];
+        const float norm = p->kind == SKV_PROFILE_EXP_BACKGROUND ? 1.0f / (1.0f + p->background) : 1.0f;
+        const float amount = s == SKV_AEROSOL || s == SKV_DUST ? a->turbidity : 1.0f;
+        float most = 0.0f;
+        for (int b = 0; b < a->bands && p->kind != SKV_PROFILE_NONE; b++) {
+            if (s < SKV_SCATTERERS)
+                m->scattering_per_km[s][b] = scattering[s][b] * amount * norm;
+            m->extinction_per_km[s][b] = extinction[s][b] * amount * norm;
+            if (s == SKV_RAYLEIGH) // what is given is the absorption alone
+                m->extinction_per_km[s][b] += m->scattering_per_km[s][b];
+            most = skv_maxf(most, m->extinction_per_km[s][b]);
         }
-        if (a->ozone.kind != SKV_PROFILE_NONE)
-            m->ozone_per_km[b] = a->ozone_absorption_per_km[b];
-        most[SKV_RAYLEIGH] = skv_maxf(most[SKV_RAYLEIGH], m->rayleigh_per_km[b]);
-        most[SKV_AEROSOL] = skv_maxf(most[SKV_AEROSOL], m->aerosol_extinction_per_km[b]);
-        most[SKV_OZONE] = skv_maxf(most[SKV_OZONE], m->ozone_per_km[b]);
-    }
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (!(most[s] > 0.0f))
+        if (!(most > 0.0f))
             m->species[s].kind = SKV_PROFILE_NONE;
+    }
 }
 
-static void skv_tables(skv_model *m, const skv_atmosphere *a) {
-    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+static void skv_tables(skv_model *m, const skv_profile *const profile[SKV_SPECIES]) {
 #if SKV_TERM_OZONE
     if (m->species[SKV_OZONE].kind != SKV_PROFILE_NONE) {
         const skv_species *sp = &m->species[SKV_OZONE];
@@ -166,7 +183,7 @@ static void skv_tables(skv_model *m, const skv_atmosphere *a) {
     }
 #endif
 #if SKV_PROFILE_TABULATED
-    for (int s = 0; s < 2; s++) {
+    for (int s = 0; s < 2 + SKV_TERM_DUST; s++) {
         const skv_species *sp = &m->species[s];
         if (sp->kind == SKV_PROFILE_NONE || sp->column == 0)
             continue;
@@ -207,22 +224,22 @@ static uint32_t skv_model_hash(const skv_model *m) {
     const float planet[2] = {m->radius_km, m->top_km};
     hash = skv_hash(hash, planet, 2);
     hash = skv_hash(hash, m->albedo, 4);
-    hash = skv_hash(hash, m->rayleigh_per_km, 4);
-    hash = skv_hash(hash, m->aerosol_per_km, 4);
-    hash = skv_hash(hash, m->aerosol_extinction_per_km, 4);
-    hash = skv_hash(hash, m->ozone_per_km, 4);
+    hash = skv_hash(hash, m->scattering_per_km[0], SKV_SCATTERERS * 4);
+    hash = skv_hash(hash, m->extinction_per_km[0], SKV_SPECIES * 4);
     for (int s = 0; s < SKV_SPECIES; s++) {
         const skv_species *const sp = &m->species[s];
         const float of[] = {(float)sp->kind, sp->scale_height_km, sp->background, sp->p0, sp->p1, sp->p2};
         hash = skv_hash(hash, of, sizeof of / sizeof of[0]);
     }
-    const float phase[2] = {(float)m->aerosol_phase, m->aerosol_g};
-    hash = skv_hash(hash, phase, 2);
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        const float phase[2] = {(float)m->phase[s], m->g[s]};
+        hash = skv_hash(hash, phase, 2);
+    }
 #if SKV_TERM_OZONE
     hash = m->species[SKV_OZONE].kind == SKV_PROFILE_TABLE ? skv_hash(hash, m->ozone_density, SKV_DENSITY_ROWS) : hash;
 #endif
 #if SKV_PROFILE_TABULATED
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < 2 + SKV_TERM_DUST; s++)
         hash = m->species[s].kind == SKV_PROFILE_TABLE ? skv_hash(hash, m->density[s], SKV_DENSITY_ROWS) : hash;
 #endif
     return hash;
@@ -246,20 +263,23 @@ skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
         model->albedo[b] = a->albedo[b];
         model->absorption_colour[b] = a->absorption_colour[b];
     }
-    const skv_profile *profile[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+    const skv_profile *const profile[SKV_SPECIES] = {&a->rayleigh, &a->aerosol, &a->dust, &a->ozone};
     for (int s = 0; s < SKV_SPECIES; s++)
         skv_species_init(&model->species[s], profile[s], s, a->top_km);
-    model->aerosol_phase = (int32_t)a->aerosol_phase;
-    model->aerosol_g = a->aerosol.kind == SKV_PROFILE_NONE ? 0.0f : a->aerosol_g;
-    skv_coefficients(model, a);
+    model->phase[SKV_AEROSOL] = (int32_t)a->aerosol_phase;
+    model->phase[SKV_DUST] = (int32_t)a->dust_phase;
+    model->g[SKV_AEROSOL] = a->aerosol.kind == SKV_PROFILE_NONE ? 0.0f : a->aerosol_g;
+    model->g[SKV_DUST] = a->dust.kind == SKV_PROFILE_NONE ? 0.0f : a->dust_g;
+    skv_coefficients(model, a, profile);
     model->chapman_valid = 1;
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < SKV_SCATTERERS; s++)
         if (model->species[s].kind != SKV_PROFILE_NONE && model->species[s].column == 0 &&
             model->species[s].scale_height_km * 100.0f > a->radius_km)
             model->chapman_valid = 0;
     skv_breaks(model, &a->aerosol);
+    skv_breaks(model, &a->dust);
     skv_breaks(model, &a->rayleigh);
-    skv_tables(model, a);
+    skv_tables(model, profile);
     model->hash = skv_model_hash(model);
     model->layout = SKV_LAYOUT;
     return SKV_OK;

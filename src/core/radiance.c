@@ -2,11 +2,11 @@
 
 #include <string.h>
 
-#include "core/ends.h"
 #include "core/gauss.h"
 #include "core/midpoint.h"
 #include "core/shadow.h"
 #include "core/slices.h"
+#include "core/stages.h"
 
 /// Written one by one: a call of memset() costs more than these few bytes.
 SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t n) {
@@ -21,32 +21,6 @@ SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t
 }
 
 #if SKV_RULE_GAUSS_EXP
-/// One leg of each ray as the light sees it.
-SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, const skv_block *block, int part,
-                              const skv_block_light *toward, const skv_columns *k, skv_legs *leg) {
-    const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
-    SKV_EACH_LANE(l) {
-        const float dir = block->leg[part].dir.v[l];
-        leg->h_km.v[l] = block->leg[part].h_km.v[l];
-        leg->rm.v[l] = block->leg[part].rm.v[l];
-        leg->rms.v[l] = rms0 + block->leg[part].from_km.v[l] * toward->nu.v[l];
-        leg->nu.v[l] = dir * toward->nu.v[l];
-        leg->a.v[l] = block->leg[part].a.v[l];
-        leg->b.v[l] = leg->end.v[l] = block->leg[part].b.v[l];
-        leg->p_km.v[l] = block->p_km.v[l];
-        leg->sigma.v[l] = -dir;
-    }
-    for (int s = 0; s < 2; s++)
-        if (SKV_PRESENT(has, s))
-            leg->phase[s] = toward->phase[s];
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            leg->k.of[s] = k->of[s];
-}
-
-#include "core/diffuse.h"
-#include "core/stages.h"
-
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
 /// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
 /// few rays have, does the geometry again.
@@ -90,9 +64,11 @@ SKV_INLINE void skv_legs_copy(const skv_legs *from, unsigned l, skv_legs *to, un
     to->b.v[q] = from->b.v[l];
     to->p_km.v[q] = from->p_km.v[l];
     to->sigma.v[q] = from->sigma.v[l];
-    for (int s = 0; s < 2; s++)
+    SKV_EACH_SCATTERER(s)
+    if (SKV_PRESENT(SKV_HAS_BUILT, s))
         to->phase[s].v[q] = from->phase[s].v[l];
-    for (int s = 0; s < SKV_SPECIES; s++)
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(SKV_HAS_BUILT, s))
         to->k.of[s].v[q] = from->k.of[s].v[l];
     to->out[q] = from->out[l];
 }

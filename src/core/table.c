@@ -54,7 +54,7 @@ static void skv_table_header(skv_table *t, const skv_table_spec *spec, int bands
 
 /// Floats of the work space behind the float table.
 static size_t skv_table_rest(const skv_table *t) {
-    return (skv_cells_count(t) * (SKV_TABLE_TERMS + 1u) + t->suns) * t->bands;
+    return (skv_cells_count(t) * SKV_TABLE_TERMS + t->suns) * t->bands;
 }
 
 size_t skv_table_size(const skv_table_spec *spec, int bands) {
@@ -76,9 +76,12 @@ size_t skv_table_work_size(const skv_table_spec *spec, int bands) {
 /// Passes that leave less than the error of the rest of the method: more where light is scattered more often.
 static int32_t skv_table_orders(const skv_model *m) {
     float tau = 0.0f;
-    for (int b = 0; b < skv_bands(m); b++)
-        tau = skv_maxf(tau, m->rayleigh_per_km[b] * m->species[SKV_RAYLEIGH].scale_height_km +
-                                m->aerosol_per_km[b] * m->species[SKV_AEROSOL].scale_height_km);
+    for (int b = 0; b < skv_bands(m); b++) {
+        float sum = 0.0f;
+        for (int k = 0; k < SKV_SCATTERERS; k++)
+            sum += m->scattering_per_km[k][b] * m->species[k].scale_height_km;
+        tau = skv_maxf(tau, sum);
+    }
     return tau < 0.5f ? 4 : tau < 8.0f ? 4 + (int32_t)(4.0f * tau) : 40;
 }
 
@@ -109,8 +112,6 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
         skv_minf(model->top_km - s->ground_km, 7.5f * skv_maxf(model->species[SKV_RAYLEIGH].scale_height_km, 1.0f));
     builder->work->model = model->hash;
     builder->first = (float *)(void *)((char *)work + builder->work->bytes);
-    builder->change =
-        builder->first + (skv_cells_count(builder->work) * SKV_TABLE_TERMS + builder->work->suns) * (size_t)bands;
     builder->pass = 1;
     if (builder->spec.orders == 0)
         builder->spec.orders = skv_table_orders(model);
@@ -154,12 +155,11 @@ static int skv_table_rays(const skv_table_builder *b) {
 /// What a gathered ray adds to the source of the kept species.
 static void skv_table_source(skv_table_builder *b, const skv_gather_ray *ray, const float radiance[]) {
     const int kept = b->frame.diffuse.kept, bands = skv_bands(b->model);
-    (void)kept;
     for (int i = 0; i < SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS; i++) {
         float v[3];
         skv_fine_direction(i, v);
-        const float p = ray->weight *
-                        skv_fine_phase(b->model->aerosol_phase == SKV_PHASE_CS, b->model->aerosol_g, v, ray->direction);
+        const float p =
+            ray->weight * skv_fine_phase(b->model->phase[kept] == SKV_PHASE_CS, b->model->g[kept], v, ray->direction);
         for (int band = 0; band < bands; band++)
             b->source[i][band] += p * radiance[band];
     }
@@ -191,26 +191,31 @@ static void skv_table_gather(skv_table_builder *b, int count) {
 }
 
 /// The numbers of a cell after a pass: light scattered once and what was gathered of the table so far. The last pass
-/// adds the rest as a geometric series.
-/// @return by how much the pass changes it in all, over its own change.
+/// adds the rest as a geometric series, whose rate is that of the whole table: single cells may still be gaining.
+/// @return weight of that rest.
 static float skv_table_cell_update(skv_table_builder *b, int band, float now[SKV_TABLE_TERMS], const float old[],
-                                   float first[], float *change) {
+                                   float first[]) {
     const int terms = b->row < b->work->detailed ? SKV_TABLE_TERMS : 6;
-    if (b->pass == 1) {
-        for (int k = 0; k < terms; k++)
-            first[k] = now[k];
-        *change = now[0];
-        return 0.0f;
-    }
-    (void)band;
-    for (int k = 0; k < terms; k++)
+    for (int k = 0; k < terms && b->pass == 1; k++)
+        first[k] = now[k];
+    for (int k = 0; k < terms && b->pass > 1; k++)
         now[k] += first[k];
-    const float step = now[0] - old[0], rate = *change > 0.0f ? skv_clampf(step / *change, 0.0f, 0.9f) : 0.0f;
-    const float more = b->pass == b->spec.orders ? rate / (1.0f - rate) : 0.0f;
-    *change = step;
+    b->change[band] += skv_fabsf(now[0] - old[0]);
+    const float more = b->pass == b->spec.orders ? b->rate[band] / (1.0f - b->rate[band]) : 0.0f;
     for (int k = 0; k < terms; k++)
         now[k] += more * (now[k] - old[k]);
     return more;
+}
+
+/// The rate at which passes change less and less, once there are two to compare.
+static void skv_table_pass_end(skv_table_builder *b) {
+    for (int band = 0; band < SKV_BANDS_MAX; band++) {
+        const float rate = b->pass > 2 && b->before[band] > 0.0f ? b->change[band] / b->before[band] : 0.0f;
+        b->rate[band] = skv_clampf(rate, 0.0f, 0.9f);
+        b->before[band] = b->change[band];
+        b->change[band] = 0.0f;
+    }
+    b->pass++;
 }
 
 /// log2 of a radiance that the table keeps.
@@ -244,8 +249,7 @@ static void skv_table_cell_band(skv_table_builder *b, int band) {
     old[0] = b->pass > 1 ? skv_exp2f(*mean) : 0.0f;
     for (int k = 1; k < terms; k++)
         old[k] = b->pass > 1 ? ratio[(size_t)(k - 1) * bands] * old[0] : 0.0f;
-    const float more = skv_table_cell_update(b, band, now, old, b->first + (cell * bands + i) * SKV_TABLE_TERMS,
-                                             b->change + cell * bands + i);
+    const float more = skv_table_cell_update(b, band, now, old, b->first + (cell * bands + i) * SKV_TABLE_TERMS);
     if (b->row == 0) {
         float *const once = b->first + (skv_cells_count(t) * SKV_TABLE_TERMS + (size_t)b->column) * bands + i;
         float sum = m[SKV_GATHER_DOWN];
@@ -273,7 +277,7 @@ static void skv_table_next(skv_table_builder *b) {
     if (++b->row < b->work->altitudes)
         return;
     b->row = 0;
-    b->pass++;
+    skv_table_pass_end(b);
 }
 
 static void skv_table_work(skv_table_builder *b) {

@@ -62,6 +62,18 @@ static inline skv_atmosphere air_br16(void) {
     return a;
 }
 
+/// A layer of smoke beside that: its own scale height, phase function and colours.
+static inline skv_atmosphere air_smoky(void) {
+    skv_atmosphere a = air_br17o();
+    set4(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
+    set4(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
+    a.dust.kind = SKV_PROFILE_EXPONENTIAL;
+    a.dust.scale_height_km = 2.5f;
+    a.dust_phase = SKV_PHASE_HG;
+    a.dust_g = 0.6f;
+    return a;
+}
+
 /// Zenith angle, and azimuth clockwise from north; exactly level at 90 degrees, exactly down at 180.
 static inline void toward(float to[3], double zenith_deg, double azimuth_deg) {
     const double level = zenith_deg == 180 ? 0 : sin(zenith_deg * CORE_DEGREE);

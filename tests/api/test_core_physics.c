@@ -81,11 +81,16 @@ static void no_light_no_radiance(void **state) {
 /// A term that is switched off is as one that the atmosphere does not have.
 static void terms_off_are_species_absent(void **state) {
     (void)state;
-    static const char *const name[4] = {"no Rayleigh", "no aerosol", "no ozone", "no ground"};
-    for (int term = 0; term < 4; term++) {
-        skv_atmosphere a = air_br17o();
-        if (term < 3)
-            (term == 0 ? &a.rayleigh : term == 1 ? &a.aerosol : &a.ozone)->kind = SKV_PROFILE_NONE;
+    static const char *const name[5] = {"no Rayleigh", "no aerosol", "no dust", "no ozone", "no ground"};
+    static const uint32_t bit[5] = {SKV_WITH_RAYLEIGH, SKV_WITH_AEROSOL, SKV_WITH_DUST, SKV_WITH_OZONE,
+                                    SKV_WITH_GROUND};
+    const skv_atmosphere all = air_smoky();
+    build(&third, &all);
+    for (int term = 0; term < 5; term++) {
+        skv_atmosphere a = all;
+        skv_profile *const profile[4] = {&a.rayleigh, &a.aerosol, &a.dust, &a.ozone};
+        if (term < 4)
+            profile[term]->kind = SKV_PROFILE_NONE;
         else
             set4(a.albedo, 0, 0, 0, 0);
         build(&other, &a);
@@ -96,12 +101,88 @@ static void terms_off_are_species_absent(void **state) {
                 skv_quality q = qualities[k];
                 begin_ray(&frame, &other, &q, i, view);
                 const shone want = shine(&frame, view, INFINITY);
-                q.terms &= ~(1u << term);
-                begin_ray(&frame, &clear, &q, i, view);
+                q.terms &= ~bit[term];
+                begin_ray(&frame, &third, &q, i, view);
                 const shone got = shine(&frame, view, INFINITY);
                 check_same_bits(name[term], &got, &want);
             }
     }
+}
+
+/// Both models for all rules and rays: the same bits, or alike to a share.
+static void compare_models(const char *what, const skv_model *got_of, const skv_model *want_of, double share) {
+    for (int k = 0; k < COUNT(qualities); k++)
+        for (int i = 0; i < COUNT(rays_of); i++) {
+            skv_frame frame;
+            float view[3];
+            begin_ray(&frame, want_of, &qualities[k], i, view);
+            const shone want = shine(&frame, view, INFINITY);
+            begin_ray(&frame, got_of, &qualities[k], i, view);
+            const shone got = shine(&frame, view, INFINITY);
+            if (share > 0)
+                check_alike(what, &got, &want, share, share);
+            else
+                check_same_bits(what, &got, &want);
+        }
+}
+
+/// What is called aerosol may as well be called dust, whatever its profile and phase function.
+static void dust_is_as_aerosol(void **state) {
+    (void)state;
+    static const float km[4] = {0, 2, 3, 6}, density[4] = {0, 1, 0.8f, 0};
+    static const skv_profile profiles[] = {
+        {.kind = SKV_PROFILE_EXPONENTIAL, .scale_height_km = 1.2f},
+        {.kind = SKV_PROFILE_EXP_BACKGROUND, .scale_height_km = 1.2f, .background = 2e-3f},
+        {.kind = SKV_PROFILE_TENT, .peak_km = 3, .half_width_km = 2},
+        {.kind = SKV_PROFILE_LOGNORMAL, .lognormal_mu = 1, .lognormal_k = 4},
+        {.kind = SKV_PROFILE_TABLE, .table_altitude_km = km, .table_density = density, .table_rows = 4}};
+    for (int i = 0; i < COUNT(profiles); i++) {
+        skv_atmosphere a = air_br16();
+        a.aerosol = profiles[i];
+        a.aerosol_phase = i % 2 == 0 ? SKV_PHASE_CS : SKV_PHASE_HG;
+        a.aerosol_g = i == 2 ? -0.3f : 0.7f;
+        build(&other, &a);
+        a.dust = a.aerosol;
+        a.dust_phase = a.aerosol_phase;
+        a.dust_g = a.aerosol_g;
+        memcpy(a.dust_scattering_per_km, a.aerosol_scattering_per_km, sizeof a.dust_scattering_per_km);
+        memcpy(a.dust_extinction_per_km, a.aerosol_extinction_per_km, sizeof a.dust_extinction_per_km);
+        a.aerosol.kind = SKV_PROFILE_NONE;
+        build(&third, &a);
+        compare_models("dust for aerosol", &third, &other, 0);
+    }
+}
+
+/// Half of the aerosol in each slot is the whole of it. Sums of twice as many floats; the grazing rays of 60 km and
+/// more have optical depths of some 10 whose roundings show in the radiance: 5e-5.
+static void halves_of_an_aerosol_add(void **state) {
+    (void)state;
+    skv_atmosphere a = air_br16();
+    build(&other, &a);
+    a.dust = a.aerosol;
+    a.dust_phase = a.aerosol_phase;
+    a.dust_g = a.aerosol_g;
+    for (int b = 0; b < 4; b++) {
+        a.dust_scattering_per_km[b] = 0.25f * a.aerosol_scattering_per_km[b];
+        a.dust_extinction_per_km[b] = 0.25f * a.aerosol_extinction_per_km[b];
+        a.aerosol_scattering_per_km[b] *= 0.75f;
+        a.aerosol_extinction_per_km[b] *= 0.75f;
+    }
+    build(&third, &a);
+    compare_models("halves", &third, &other, 5e-5);
+}
+
+/// Absorption of the gas is the same as a layer of its scale height that only absorbs; tolerance as above.
+static void a_gas_that_absorbs(void **state) {
+    (void)state;
+    skv_atmosphere a = air_br17o();
+    set4(a.rayleigh_absorption_per_km, 0.001, 0.01, 0.03, 0);
+    build(&third, &a);
+    memcpy(a.dust_extinction_per_km, a.rayleigh_absorption_per_km, sizeof a.dust_extinction_per_km);
+    set4(a.rayleigh_absorption_per_km, 0, 0, 0, 0);
+    a.dust = a.rayleigh;
+    build(&other, &a);
+    compare_models("an absorbing gas", &third, &other, 5e-5);
 }
 
 /// The fast tier takes N = 6 by itself, so it is the standard one, above 20 km and for a light below 2 deg; not else.
@@ -438,6 +519,9 @@ int main(void) {
         cmocka_unit_test(two_lights_add),
         cmocka_unit_test(no_light_no_radiance),
         cmocka_unit_test(terms_off_are_species_absent),
+        cmocka_unit_test(dust_is_as_aerosol),
+        cmocka_unit_test(halves_of_an_aerosol_add),
+        cmocka_unit_test(a_gas_that_absorbs),
         cmocka_unit_test(fast_is_standard_where_it_has_to_be),
         cmocka_unit_test(no_term_at_all),
         cmocka_unit_test(a_ray_of_no_length),

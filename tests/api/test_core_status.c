@@ -53,11 +53,14 @@ static const field fields[] = {
     {AT(albedo), 4, 0, 1},
     {AT(solar_irradiance), 4, 0, 1e6f},
     {AT(rayleigh_scattering_per_km), 4, 0, 1e4f},
+    {AT(rayleigh_absorption_per_km), 4, 0, 1e4f},
     {AT(aerosol_g), 1, -0.9999f, 0.9999f},
+    {AT(dust_g), 1, -0.9999f, 0.9999f},
     {AT(turbidity), 1, 0, 1e4f},
     {AT(ozone_absorption_per_km), 4, 0, 1e4f},
     {AT(rayleigh.scale_height_km), 1, 0.001f, 1000},
     {AT(aerosol.scale_height_km), 1, 0.001f, 1000},
+    {AT(dust.scale_height_km), 1, 0.001f, 1000},
     {AT(ozone.peak_km), 1, 0, 1000},
     {AT(ozone.half_width_km), 1, 0.01f, 1000},
 };
@@ -95,7 +98,7 @@ static void atmosphere_pointers(void **state) {
 
 static void atmosphere_fields(void **state) {
     (void)state;
-    const skv_atmosphere a = air_br17o();
+    const skv_atmosphere a = air_smoky();
     for (int i = 0; i < COUNT(fields); i++)
         check_field(&a, &fields[i]);
 }
@@ -103,7 +106,7 @@ static void atmosphere_fields(void **state) {
 /// Ranges that depend on another field, and open ones.
 static void atmosphere_fields_that_depend(void **state) {
     (void)state;
-    const skv_atmosphere plain = air_br17o();
+    const skv_atmosphere plain = air_smoky();
     skv_atmosphere a = plain;
     check_never(&a, AT(radius_km));
     check_never(&a, AT(top_km));
@@ -124,6 +127,8 @@ static void atmosphere_fields_that_depend(void **state) {
         const size_t nm = offsetof(skv_atmosphere, wavelength_nm) + at;
         const size_t scattering = offsetof(skv_atmosphere, aerosol_scattering_per_km) + at;
         const size_t extinction = offsetof(skv_atmosphere, aerosol_extinction_per_km) + at;
+        const size_t dust_scattering = offsetof(skv_atmosphere, dust_scattering_per_km) + at;
+        const size_t dust_extinction = offsetof(skv_atmosphere, dust_extinction_per_km) + at;
         const size_t colour = offsetof(skv_atmosphere, absorption_colour) + at;
         check_never(&a, "wavelength_nm", nm);
         check_never(&a, "aerosol_scattering_per_km", scattering);
@@ -135,6 +140,13 @@ static void atmosphere_fields_that_depend(void **state) {
         check_float(a, "aerosol_scattering_per_km", scattering, above(a.aerosol_extinction_per_km[b]), SKV_ERR_RANGE);
         check_float(a, "aerosol_extinction_per_km", extinction, 1e4f, SKV_OK);
         check_float(a, "aerosol_extinction_per_km", extinction, above(1e4f), SKV_ERR_RANGE);
+        check_never(&a, "dust_scattering_per_km", dust_scattering);
+        check_never(&a, "dust_extinction_per_km", dust_extinction);
+        check_float(a, "dust_scattering_per_km", dust_scattering, 0, SKV_OK);
+        check_float(a, "dust_scattering_per_km", dust_scattering, -FLT_MIN, SKV_ERR_RANGE);
+        check_float(a, "dust_scattering_per_km", dust_scattering, above(a.dust_extinction_per_km[b]), SKV_ERR_RANGE);
+        check_float(a, "dust_extinction_per_km", dust_extinction, 1e4f, SKV_OK);
+        check_float(a, "dust_extinction_per_km", dust_extinction, above(1e4f), SKV_ERR_RANGE);
         check_float(a, "absorption_colour", colour, 1, SKV_OK);
         check_float(a, "absorption_colour", colour, above(1), SKV_ERR_RANGE);
         check_float(a, "absorption_colour", colour, 0, SKV_ERR_RANGE);
@@ -150,6 +162,11 @@ static void atmosphere_fields_that_depend(void **state) {
     check_float(a, AT(wavelength_nm[3]), above(3000), SKV_ERR_RANGE);
 }
 
+static skv_profile *profile_of(skv_atmosphere *a, int species) {
+    skv_profile *const all[SKV_SPECIES] = {&a->rayleigh, &a->aerosol, &a->dust, &a->ozone};
+    return all[species];
+}
+
 static void atmosphere_choices(void **state) {
     (void)state;
     static const int32_t bad_bands[] = {0, 1, 2, 5, -3, INT32_MAX, INT32_MIN};
@@ -163,9 +180,12 @@ static void atmosphere_choices(void **state) {
     check_build("aerosol_phase", SKV_PHASE_HG, &a, SKV_OK);
     a.aerosol_phase = (skv_phase)2;
     check_build("aerosol_phase", 2, &a, SKV_ERR_RANGE);
-    for (int s = 0; s < 3; s++) {
+    a = air_smoky();
+    a.dust_phase = (skv_phase)-1;
+    check_build("dust_phase", -1, &a, SKV_ERR_RANGE);
+    for (int s = 0; s < SKV_SPECIES; s++) {
         a = air_br17o();
-        (s == 0 ? &a.rayleigh : s == 1 ? &a.aerosol : &a.ozone)->kind = (skv_profile_kind)7;
+        profile_of(&a, s)->kind = (skv_profile_kind)7;
         check_build("profile.kind", 7, &a, SKV_ERR_RANGE);
     }
     // Of three bands the fourth is nobody's business.
@@ -173,6 +193,7 @@ static void atmosphere_choices(void **state) {
     a.bands = 3;
     a.wavelength_nm[3] = a.albedo[3] = a.rayleigh_scattering_per_km[3] = a.absorption_colour[3] = NAN;
     a.aerosol_scattering_per_km[3] = a.aerosol_extinction_per_km[3] = a.ozone_absorption_per_km[3] = NAN;
+    a.dust_scattering_per_km[3] = a.dust_extinction_per_km[3] = a.rayleigh_absorption_per_km[3] = NAN;
     check_build("fourth of three bands", 0, &a, SKV_OK);
 }
 
@@ -195,14 +216,14 @@ static void profiles(void **state) {
         {SKV_PROFILE_LOGNORMAL, "lognormal_mu", offsetof(skv_profile, lognormal_mu), -3, 7},
         {SKV_PROFILE_LOGNORMAL, "lognormal_k", offsetof(skv_profile, lognormal_k), 0.05f, 200},
     };
-    static const size_t species[3] = {offsetof(skv_atmosphere, rayleigh), offsetof(skv_atmosphere, aerosol),
-                                      offsetof(skv_atmosphere, ozone)};
+    static const size_t species[SKV_SPECIES] = {offsetof(skv_atmosphere, rayleigh), offsetof(skv_atmosphere, aerosol),
+                                                offsetof(skv_atmosphere, dust), offsetof(skv_atmosphere, ozone)};
     const skv_profile shaped = {SKV_PROFILE_NONE, 8, 2e-3f, 0.0777f, 1.1636f, 25, 15, 3.22f, 5.6f, NULL, NULL, 0};
     for (int i = 0; i < COUNT(parameters); i++)
-        for (int s = 0; s < 3; s++) {
+        for (int s = 0; s < SKV_SPECIES; s++) {
             skv_atmosphere a = air_br17o();
             skv_profile *p = (skv_profile *)(void *)((char *)&a + species[s]);
-            if (parameters[i].kind == SKV_PROFILE_EXP_BACKGROUND && s != 1)
+            if (parameters[i].kind == SKV_PROFILE_EXP_BACKGROUND && s != 1 && s != 2)
                 continue;
             *p = shaped;
             p->kind = parameters[i].kind;
@@ -226,9 +247,9 @@ static void tables(void **state) {
         km[i] = 0.1f * (float)i;
         density[i] = 1 - (float)i / SKV_TABLE_ROWS_MAX;
     }
-    for (int s = 0; s < 3; s++) {
+    for (int s = 0; s < SKV_SPECIES; s++) {
         skv_atmosphere a = air_br17o();
-        skv_profile *p = s == 0 ? &a.rayleigh : s == 1 ? &a.aerosol : &a.ozone;
+        skv_profile *p = profile_of(&a, s);
         p->kind = SKV_PROFILE_TABLE;
         p->table_altitude_km = km;
         p->table_density = NULL;
@@ -277,7 +298,7 @@ static void tiers(void **state) {
     for (int t = 0; t < 3; t++) {
         check_status("tier", skv_quality_tier(&q, (skv_tier)t), SKV_OK);
         assert_true(q.rule == SKV_GAUSS_EXP && q.depth == SKV_DEPTH_BY_CHAPMAN && q.samples == samples[t]);
-        assert_true(q.terms == (SKV_WITH_RAYLEIGH | SKV_WITH_AEROSOL | SKV_WITH_OZONE));
+        assert_true(q.terms == (SKV_WITH_RAYLEIGH | SKV_WITH_AEROSOL | SKV_WITH_DUST | SKV_WITH_OZONE));
     }
 }
 
@@ -325,7 +346,7 @@ static void qualities(void **state) {
     } cases[] = {
         {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 1, 1, 7}, SKV_ERR_RANGE},
         {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 2, 0, 7}, SKV_OK}, // depth samples are for inner depth only
-        {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 16, 99, 15}, SKV_OK},
+        {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 16, 99, 31}, SKV_OK},
         {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 17, 1, 7}, SKV_ERR_RANGE},
         {{SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, -8, 1, 7}, SKV_ERR_RANGE},
         {{SKV_KELLER, SKV_DEPTH_BY_INNER, 0, 1, 7}, SKV_ERR_RANGE},
@@ -337,8 +358,8 @@ static void qualities(void **state) {
         {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, 64, 64, 7}, SKV_OK},
         {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, INT32_MAX, 64, 7}, SKV_ERR_RANGE},
         {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, INT32_MIN, 64, 7}, SKV_ERR_RANGE},
-        {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, 8, 8, 16}, SKV_ERR_RANGE},
-        {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, 8, 8, 0x8000000fu}, SKV_ERR_RANGE},
+        {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, 8, 8, 32}, SKV_ERR_RANGE},
+        {{SKV_UNIFORM, SKV_DEPTH_BY_INNER, 8, 8, 0x8000001fu}, SKV_ERR_RANGE},
         {{(skv_rule)3, SKV_DEPTH_BY_INNER, 8, 8, 7}, SKV_ERR_UNSUPPORTED},
         {{SKV_KELLER, (skv_depth)2, 8, 8, 7}, SKV_ERR_UNSUPPORTED},
     };

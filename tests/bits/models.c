@@ -52,13 +52,12 @@ void bits_models(bits_scale scale) {
     }
     const int kinds = scale == BITS_FULL ? SKV_PROFILE_TABLE : 0;
     for (int kind = SKV_PROFILE_NONE; kind <= kinds; ++kind) {
-        for (int species = 0; species < 3; ++species) {
+        for (int species = 0; species < SKV_SPECIES; ++species) {
             skv_atmosphere air;
             skv_atmosphere_preset(&air, SKV_PRESET_EARTH_CLEAR, 4);
-            set_profile(species == 0   ? &air.rayleigh
-                        : species == 1 ? &air.aerosol
-                                       : &air.ozone,
-                        (skv_profile_kind)kind);
+            skv_profile *const profile[SKV_SPECIES] = {&air.rayleigh, &air.aerosol, &air.dust, &air.ozone};
+            air.dust_scattering_per_km[0] = air.dust_extinction_per_km[0] = 0.01f;
+            set_profile(profile[species], (skv_profile_kind)kind);
             build(&air);
         }
     }

@@ -100,6 +100,18 @@ static void vary(skv_atmosphere *air, uint32_t which) {
         air->aerosol_g = -0.6f;
     if (which % 7 == 3)
         air->absorption_colour[1] = 0.7f;
+    if (which % 3 == 1) {
+        for (int b = 0; b < 4; ++b) {
+            air->dust_scattering_per_km[b] = 0.02f + 0.01f * (float)b;
+            air->dust_extinction_per_km[b] = 0.05f;
+            air->rayleigh_absorption_per_km[b] = 0.004f * (float)b;
+        }
+        air->dust = (skv_profile){.kind = SKV_PROFILE_TENT, .peak_km = 3.0f, .half_width_km = 1.0f};
+        if (which % 2 == 0)
+            air->dust = (skv_profile){.kind = SKV_PROFILE_EXPONENTIAL, .scale_height_km = 2.0f};
+        air->dust_phase = which & 1 ? SKV_PHASE_HG : SKV_PHASE_CS;
+        air->dust_g = 0.8f;
+    }
     if (which % 4 == 3) {
         air->rayleigh.kind = SKV_PROFILE_US76;
         air->rayleigh.us76_a = 0.07771971f;

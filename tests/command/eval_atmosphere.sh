@@ -74,6 +74,18 @@ wrong 'g of 1' 19 'from -0.9999 to 0.9999' '19s/0.8/1/'
 wrong 'extinction below scattering' 15 'allowed is scattering_per_km' '15s/0.0044$/0.0039/'
 wrong 'background missing' 13 'lacks background' '16s/exponential/exponential-background/'
 wrong 'background over 1' 20 'from 0 to 1' -e '16s/exponential/exponential-background/' -e '19abackground = 2'
+# In [dust], line 13 on, what [aerosol] has, and two more profiles.
+dust='s/\[aerosol\]/[dust]/'
+wrong 'dust: unknown key' 20 'unknown key h in \[dust\]; allowed are .*background, phase, g, peak_km' -e "$dust" -e '19ah = 2'
+for key in 14:scattering_per_km 15:extinction_per_km 16:profile 17:scale_height_km 18:phase 19:g; do
+    wrong "dust: missing ${key#*:}" 13 "lacks ${key#*:}" -e "$dust" -e "${key%%:*}s/.*/;/"
+done
+wrong 'dust: extinction below scattering' 15 'allowed is scattering_per_km' -e "$dust" -e '15s/0.0044$/0.0039/'
+wrong 'dust: unknown profile' 16 'exponential, exponential-background, tent, lognormal or table' -e "$dust" -e '16s/=.*/= us76/'
+wrong 'dust: tent without a peak' 13 'lacks peak_km' -e "$dust" -e '16s/=.*/= tent/'
+wrong 'dust: half width' 18 'half_width_km = 0: allowed' -e "$dust" -e '16s/=.*/= tent/' -e '17s/.*/peak_km = 3\nhalf_width_km = 0/'
+wrong 'absorption of three bands' 13 'absorption_per_km: 3 values; allowed are 4' '12s/$/\nabsorption_per_km = 1, 2, 3/'
+wrong 'negative absorption' 13 'from 0 to 10000' '12s/$/\nabsorption_per_km = 0, 0, -1, 0/'
 wrong 'us76 a' 12 'a = 0: allowed' -e '11s/=.*/= us76/' -e '12s/.*/a = 0/'
 wrong 'us76 b' 12 'from 0.5 to 3' -e '11s/=.*/= us76/' -e '12s/.*/b = 4/'
 wrong 'lognormal k' 23 'from 0.05 to 200' -e '22s/=.*/= lognormal/' -e '23s/.*/k = 0/' -e '24d'
@@ -107,6 +119,12 @@ right 'colons' 's/ = / : /'
 right 'blanks' -e 's/ = /=/' -e 's/, /,/g' -e 's/$/  \t/'
 right 'other number forms' -e '3s/6360/+6.36e3/' -e '4s/60/60./' -e '5s/0\./\./g'
 right 'other order of sections' -n -e '1,5{H;d}' -e 'p' -e '${x;s/^\n//;p}'
+right 'dust for aerosol' "$dust"
+right 'a gas that absorbs nothing' '12s/$/\nabsorption_per_km = 0, 0, 0, 0/'
+for profile in 'tent\npeak_km = 3\nhalf_width_km = 1' 'lognormal\nmu = 1.2\nk = 20' 'lognormal'; do
+    edited -e "$dust" -e "16s/=.*/= $profile/" -e '17d'
+    does "dust: ${profile%%\\*}" q.csv eval_file edited.ini
+done
 edited -e '13,$d'
 does 'Rayleigh alone' q.csv eval_file edited.ini
 same 'three columns fewer species, same header' "$(head -n 1 stdout)" \

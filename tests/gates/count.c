@@ -61,6 +61,7 @@ static const count_case cases[] = {
     {"off:SKV_DEPTH_INNER=0", 4, G, CHAP, 6, 4, RAO, 1, 1, 1, HG},
     {"off:SKV_TERM_RAYLEIGH=0", 4, G, CHAP, 6, 4, RAO & ~1u, 1, 1, 0, HG},
     {"off:SKV_TERM_AEROSOL=0", 4, G, CHAP, 6, 4, RAO & ~2u, 1, 1, 1, HG},
+    {"off:SKV_TERM_DUST=0", 4, G, CHAP, 6, 4, RAO, 1, 1, 1, HG},
     {"off:SKV_TERM_OZONE=0", 4, G, CHAP, 6, 4, RA, 1, 1, 1, HG},
     {"off:SKV_TERM_GROUND=0", 4, G, CHAP, 6, 4, RAO, 0, 1, 1, HG},
     {"off:SKV_OUT_TRANSMITTANCE=0", 4, G, CHAP, 6, 4, RAO, 1, 0, 1, HG},

@@ -94,6 +94,20 @@ static inline skv_atmosphere air_shaped(int bands) {
     return a;
 }
 
+/// Smoke of its own scale height and phase function, in a gas that absorbs.
+static inline skv_atmosphere air_smoky(int bands) {
+    skv_atmosphere a = air_clear(bands);
+    fill(a.rayleigh_absorption_per_km, 0, 0.001, 0.003, 0.01);
+    fill(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
+    fill(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
+    a.dust.kind = SKV_PROFILE_EXP_BACKGROUND;
+    a.dust.scale_height_km = 2.5f;
+    a.dust.background = 1e-3f;
+    a.dust_phase = SKV_PHASE_HG;
+    a.dust_g = 0.6f;
+    return a;
+}
+
 static inline void air_make(air *to, const char *name, skv_atmosphere atmosphere, float ground_km) {
     to->name = name;
     to->atmosphere = atmosphere;

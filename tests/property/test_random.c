@@ -98,6 +98,11 @@ static skv_atmosphere random_air(void) {
     random_profile(&a.rayleigh, 0);
     random_profile(&a.aerosol, 1);
     random_profile(&a.ozone, 2);
+    if (one_in(2)) {
+        random_profile(&a.dust, 1);
+        a.dust_phase = one_in(2) ? SKV_PHASE_HG : SKV_PHASE_CS;
+        a.dust_g = within(-0.9999f, 0.9999f);
+    }
     a.aerosol_phase = one_in(2) ? SKV_PHASE_HG : SKV_PHASE_CS;
     a.aerosol_g = (one_in(2) ? 1.0f : -1.0f) * within(0, 0.9999f);
     a.turbidity = one_in(2) ? 1 : within(0, 1e4f);
@@ -108,6 +113,9 @@ static skv_atmosphere random_air(void) {
         a.aerosol_extinction_per_km[i] = within(0, 1e4f);
         a.aerosol_scattering_per_km[i] = fminf(within(0, 1e4f), a.aerosol_extinction_per_km[i]);
         a.ozone_absorption_per_km[i] = within(0, 1e4f);
+        a.rayleigh_absorption_per_km[i] = one_in(2) ? 0 : within(0, 1e4f);
+        a.dust_extinction_per_km[i] = within(0, 1e4f);
+        a.dust_scattering_per_km[i] = fminf(within(0, 1e4f), a.dust_extinction_per_km[i]);
         a.absorption_colour[i] = within(1e-3f, 1);
     }
     return a;
@@ -129,6 +137,12 @@ static const bad_field checked[] = {FIELD(radius_km, 1, 100000),
                                     FIELD(aerosol_scattering_per_km[0], 0, 0.00444f),
                                     FIELD(aerosol_extinction_per_km[0], 0.003996f, 1e4f),
                                     FIELD(aerosol_g, -0.9999f, 0.9999f),
+                                    FIELD(rayleigh_absorption_per_km[1], 0, 1e4f),
+                                    FIELD(dust_scattering_per_km[0], 0, 0.034f),
+                                    FIELD(dust_extinction_per_km[2], 0.016f, 1e4f),
+                                    FIELD(dust_g, -0.9999f, 0.9999f),
+                                    FIELD(dust.scale_height_km, 0.001f, 1000),
+                                    FIELD(dust.background, 0, 1),
                                     FIELD(turbidity, 0, 1e4f),
                                     FIELD(ozone_absorption_per_km[2], 0, 1e4f),
                                     FIELD(rayleigh.scale_height_km, 0.001f, 1000),
@@ -142,7 +156,7 @@ static void parameters_out_of_range_get_a_status(void **state) {
     (void)state;
     for (int i = 0; i < 20000; i++) {
         const bad_field *f = &checked[i % (int)(sizeof checked / sizeof *checked)];
-        skv_atmosphere a = air_clear(3);
+        skv_atmosphere a = air_smoky(3);
         const float value = wild();
         memcpy((char *)&a + f->offset, &value, sizeof value);
         int good = is_finite(value) && value >= f->low && value <= f->high;
@@ -235,18 +249,20 @@ static void print_case(const skv_frame *f, const float v[3], float length) {
 }
 
 static void print_air(const skv_atmosphere *a) {
-    const skv_profile *p[3] = {&a->rayleigh, &a->aerosol, &a->ozone};
+    const skv_profile *p[SKV_SPECIES] = {&a->rayleigh, &a->aerosol, &a->dust, &a->ozone};
     print_message("air: radius %.9g top %.9g bands %d g %.9g phase %d turbidity %.9g\n", (double)a->radius_km,
                   (double)a->top_km, (int)a->bands, (double)a->aerosol_g, (int)a->aerosol_phase, (double)a->turbidity);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < SKV_SPECIES; i++)
         print_message("  kind %d H %.9g bg %.9g us76 %.9g %.9g tent %.9g %.9g ln %.9g %.9g rows %u\n", (int)p[i]->kind,
                       (double)p[i]->scale_height_km, (double)p[i]->background, (double)p[i]->us76_a,
                       (double)p[i]->us76_b, (double)p[i]->peak_km, (double)p[i]->half_width_km,
                       (double)p[i]->lognormal_mu, (double)p[i]->lognormal_k, (unsigned)p[i]->table_rows);
     for (int b = 0; b < a->bands; b++)
-        print_message("  band %d: E %.9g R %.9g A %.9g/%.9g O %.9g\n", b, (double)a->solar_irradiance[b],
-                      (double)a->rayleigh_scattering_per_km[b], (double)a->aerosol_scattering_per_km[b],
-                      (double)a->aerosol_extinction_per_km[b], (double)a->ozone_absorption_per_km[b]);
+        print_message("  band %d: E %.9g R %.9g+%.9g A %.9g/%.9g D %.9g/%.9g O %.9g\n", b,
+                      (double)a->solar_irradiance[b], (double)a->rayleigh_scattering_per_km[b],
+                      (double)a->rayleigh_absorption_per_km[b], (double)a->aerosol_scattering_per_km[b],
+                      (double)a->aerosol_extinction_per_km[b], (double)a->dust_scattering_per_km[b],
+                      (double)a->dust_extinction_per_km[b], (double)a->ozone_absorption_per_km[b]);
 }
 
 static int sound(float x, float most) {

@@ -55,7 +55,8 @@ static void lay(dome *d, const air *a, float height_km, double sun_zenith_deg, i
         truth_of(a, height_km, d->view[i], d->sun, INFINITY, 0, &d->truth[i]);
         d->mean += largest_of(d->truth[i].radiance, a->atmosphere.bands) / d->n;
         const int other = (double)a->atmosphere.aerosol_extinction_per_km[0] > 0.03 ||
-                          a->atmosphere.rayleigh.kind == SKV_PROFILE_US76;
+                          a->atmosphere.rayleigh.kind == SKV_PROFILE_US76 ||
+                          a->atmosphere.dust.kind != SKV_PROFILE_NONE;
         const int low = other ? LOW_DAY_OTHER : LOW_DAY;
         d->class_of[i] = sun_zenith_deg > 89 ? LOW_SUN : i >= SKY ? GROUND_DAY : height_km <= 5 ? low : HIGH_DAY;
     }
@@ -119,7 +120,7 @@ static int judge(const rule *r) {
 }
 
 // The airs: what the design's figures are stated for, other profiles, and ground below and above the sea.
-#define AIRS 5
+#define AIRS 6
 static air airs[AIRS];
 
 static int make_airs(void **state) {
@@ -129,6 +130,7 @@ static int make_airs(void **state) {
     air_make(&airs[2], "us76, background, lognormal", air_shaped(4), 0);
     air_make(&airs[3], "clear, ground at -0.43 km", air_clear(3), -0.43f);
     air_make(&airs[4], "hazy, ground at 2.4 km", air_hazy(3), 2.4f);
+    air_make(&airs[5], "smoke and an absorbing gas", air_smoky(4), 0);
     return 0;
 }
 

@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 have() { command -v "$1" >/dev/null; }
 have valgrind || { echo "bench.sh: valgrind is needed to count instructions (apt-get install valgrind)" >&2; exit 1; }
 
-trim='-DSKV_BANDS=3 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PROFILE_TABULATED=0
+trim='-DSKV_BANDS=3 -DSKV_TERM_DUST=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PROFILE_TABULATED=0
  -DSKV_PHASE_HENYEY_GREENSTEIN=0 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_LIGHTS_MAX=1'
 # name|compiler|ARCH|OPT|CORE_EXTRA
 builds="gcc avx2|gcc|-mavx2|-O3|

@@ -84,6 +84,15 @@ def rayleigh_co2_cm2(nm):
     return 24 * math.pi**3 * v**4 / AIR_PER_CM3**2 * ((n2 - 1) / (n2 + 2)) ** 2 * king
 
 
+def rayleigh_n2_cm2(nm):
+    """[Sneep05]: refractive index and King factor of N2 at 288.15 K, 1013.25 hPa, cm^2; valid 254-2060 nm."""
+    v = 1e7 / nm
+    a, b = (5677.465, 318.81874e12) if v < 21360 else (6498.2, 307.43305e12)
+    n2 = (1.0 + (a + b / (14.4e9 - v * v)) * 1e-8) ** 2
+    king = 1.034 + 3.17e-12 * v * v
+    return 24 * math.pi**3 * v**4 / AIR_PER_CM3**2 * ((n2 - 1) / (n2 + 2)) ** 2 * king
+
+
 def rayleigh_h2_cm2(nm):
     """[Dalgarno62]: cross-section of H2, cm^2."""
     a = nm * 10.0

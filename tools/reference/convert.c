@@ -27,6 +27,9 @@ void ref_to_skyvert(const ref_atmosphere *a, skv_atmosphere *to, ref_float_table
         to->solar_irradiance[i] = (float)a->irradiance[i];
         to->albedo[i] = (float)a->albedo[i];
         to->rayleigh_scattering_per_km[i] = (float)a->rayleigh_scattering[i];
+        to->rayleigh_absorption_per_km[i] = (float)a->rayleigh_absorption[i];
+        to->dust_scattering_per_km[i] = (float)a->dust_scattering[i];
+        to->dust_extinction_per_km[i] = (float)a->dust_extinction[i];
         to->aerosol_scattering_per_km[i] = (float)a->aerosol_scattering[i];
         to->aerosol_extinction_per_km[i] = (float)a->aerosol_extinction[i];
         to->ozone_absorption_per_km[i] = (float)a->ozone_absorption[i];
@@ -35,6 +38,9 @@ void ref_to_skyvert(const ref_atmosphere *a, skv_atmosphere *to, ref_float_table
     to->aerosol_phase = a->phase == REF_HENYEY_GREENSTEIN ? SKV_PHASE_HG : SKV_PHASE_CS;
     to->aerosol_g = (float)a->g;
     to->turbidity = 1;
+    to->dust_phase = a->dust_phase == REF_HENYEY_GREENSTEIN ? SKV_PHASE_HG : SKV_PHASE_CS;
+    to->dust_g = (float)a->dust_g;
+    profile_to(&a->dust, &to->dust, tables->km[3], tables->density[3]);
     profile_to(&a->rayleigh, &to->rayleigh, tables->km[0], tables->density[0]);
     profile_to(&a->aerosol, &to->aerosol, tables->km[1], tables->density[1]);
     profile_to(&a->ozone, &to->ozone, tables->km[2], tables->density[2]);
@@ -68,12 +74,18 @@ void ref_from_skyvert(const skv_atmosphere *from, double ground_km, ref_file *to
         a->irradiance[i] = (double)from->solar_irradiance[i] * (double)from->absorption_colour[i];
         a->albedo[i] = (double)from->albedo[i];
         a->rayleigh_scattering[i] = (double)from->rayleigh_scattering_per_km[i];
+        a->rayleigh_absorption[i] = (double)from->rayleigh_absorption_per_km[i];
+        a->dust_scattering[i] = (double)from->dust_scattering_per_km[i] * (double)from->turbidity;
+        a->dust_extinction[i] = (double)from->dust_extinction_per_km[i] * (double)from->turbidity;
         a->aerosol_scattering[i] = (double)from->aerosol_scattering_per_km[i] * (double)from->turbidity;
         a->aerosol_extinction[i] = (double)from->aerosol_extinction_per_km[i] * (double)from->turbidity;
         a->ozone_absorption[i] = (double)from->ozone_absorption_per_km[i];
     }
     a->phase = from->aerosol_phase == SKV_PHASE_HG ? REF_HENYEY_GREENSTEIN : REF_CORNETTE_SHANKS;
     a->g = (double)from->aerosol_g;
+    a->dust_phase = from->dust_phase == SKV_PHASE_HG ? REF_HENYEY_GREENSTEIN : REF_CORNETTE_SHANKS;
+    a->dust_g = (double)from->dust_g;
+    a->dust = profile_from(&from->dust, to->table_km[3], to->table_density[3]);
     a->rayleigh = profile_from(&from->rayleigh, to->table_km[0], to->table_density[0]);
     a->aerosol = profile_from(&from->aerosol, to->table_km[1], to->table_density[1]);
     a->ozone = profile_from(&from->ozone, to->table_km[2], to->table_density[2]);

@@ -7,7 +7,7 @@
 
 /// Room for the tables of an atmosphere.
 typedef struct ref_float_tables {
-    float km[3][REF_TABLE_ROWS], density[3][REF_TABLE_ROWS];
+    float km[4][REF_TABLE_ROWS], density[4][REF_TABLE_ROWS];
 } ref_float_tables;
 
 /// What a file says as the library takes it: rounded to float. The atmosphere points into `tables`.

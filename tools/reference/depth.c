@@ -120,6 +120,7 @@ void ref_world_make(ref_world *w, const ref_atmosphere *a, int nodes) {
     knots_of(w, &a->rayleigh);
     knots_of(w, &a->aerosol);
     knots_of(w, &a->ozone);
+    knots_of(w, &a->dust);
     qsort(w->piece, (size_t)w->pieces, sizeof *w->piece, ascending);
     qsort(w->kink, (size_t)w->kinks, sizeof *w->kink, ascending);
 }
@@ -134,6 +135,7 @@ static void sample(const ref_world *w, double e, double weight, double column[RE
     column[0] += weight * ref_density(&a->rayleigh, h);
     column[1] += weight * ref_density(&a->aerosol, h);
     column[2] += weight * ref_density(&a->ozone, h);
+    column[3] += weight * ref_density(&a->dust, h);
 }
 
 static void piece(const ref_world *w, double e, double b, double s0, double s1, double column[REF_SPECIES]) {

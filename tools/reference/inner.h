@@ -4,7 +4,8 @@
 
 #include "single.h"
 
-#define REF_SPECIES   3
+/// Columns: Rayleigh, aerosol, ozone, dust.
+#define REF_SPECIES   4
 #define REF_KNOTS_MAX (REF_SPECIES * (REF_TABLE_ROWS + 16))
 
 /// Heights are carried as E = r^2 - ground^2 = y (2 ground + y): exact near the ground, polynomial along a line.
@@ -19,6 +20,13 @@ typedef struct ref_world {
     int kinks;                   ///< number of knots where a density is not smooth, and of first guides
     double kink[REF_KNOTS_MAX];
 } ref_world;
+
+/// Optical depth of columns in one band.
+static inline double ref_depth(const ref_atmosphere *a, const double column[REF_SPECIES], int band) {
+    return (a->rayleigh_scattering[band] + a->rayleigh_absorption[band]) * column[0] +
+           a->aerosol_extinction[band] * column[1] + a->ozone_absorption[band] * column[2] +
+           a->dust_extinction[band] * column[3];
+}
 
 void ref_world_make(ref_world *world, const ref_atmosphere *atmosphere, int nodes);
 double ref_height(const ref_world *world, double e);

@@ -11,8 +11,8 @@
 typedef struct reader {
     ref_file *file;
     const char *name;
-    int line, counts[8], failed;
-    char table[3][512];
+    int line, counts[10], failed;
+    char table[4][512];
 } reader;
 
 static int list(double *out, int most, const char *text) {
@@ -68,11 +68,11 @@ static int profile_key(reader *r, int which, ref_profile *p, const char *name, c
     return 0;
 }
 
-static int phase(ref_atmosphere *a, const char *value) {
+static int phase(ref_phase *phase, const char *value) {
     if (strcmp(value, "henyey-greenstein") == 0)
-        a->phase = REF_HENYEY_GREENSTEIN;
+        *phase = REF_HENYEY_GREENSTEIN;
     else if (strcmp(value, "cornette-shanks") == 0)
-        a->phase = REF_CORNETTE_SHANKS;
+        *phase = REF_CORNETTE_SHANKS;
     else
         return 0;
     return 1;
@@ -90,22 +90,30 @@ static int take(void *user, const char *section, const char *name, const char *v
                         {"aerosol", "scattering_per_km", a->aerosol_scattering, 4},
                         {"aerosol", "extinction_per_km", a->aerosol_extinction, 4},
                         {"ozone", "absorption_per_km", a->ozone_absorption, 4},
-                        {"aerosol", "g", &a->g, 1}};
+                        {"rayleigh", "absorption_per_km", a->rayleigh_absorption, 4},
+                        {"dust", "scattering_per_km", a->dust_scattering, 4},
+                        {"dust", "extinction_per_km", a->dust_extinction, 4},
+                        {"aerosol", "g", &a->g, 1},
+                        {"dust", "g", &a->dust_g, 1}};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(section, keys[i].section) == 0 && strcmp(name, keys[i].name) == 0) {
             const int n = list(keys[i].value, keys[i].most, value);
-            if (i >= 2 && i < 9)
+            if (i >= 2 && i < 12)
                 r->counts[i - 2] = n;
             return n > 0;
         }
     if (strcmp(section, "aerosol") == 0 && strcmp(name, "phase") == 0)
-        return phase(a, value);
+        return phase(&a->phase, value);
+    if (strcmp(section, "dust") == 0 && strcmp(name, "phase") == 0)
+        return phase(&a->dust_phase, value);
     if (strcmp(section, "rayleigh") == 0)
         return profile_key(r, 0, &a->rayleigh, name, value);
     if (strcmp(section, "aerosol") == 0)
         return profile_key(r, 1, &a->aerosol, name, value);
     if (strcmp(section, "ozone") == 0)
         return profile_key(r, 2, &a->ozone, name, value);
+    if (strcmp(section, "dust") == 0)
+        return profile_key(r, 3, &a->dust, name, value);
     return 0;
 }
 
@@ -157,15 +165,18 @@ int ref_read_ini(ref_file *file, const char *name) {
     const ref_profile blank = {
         .us76_a = .07771971, .us76_b = 1.16364243, .lognormal_mu = 3.22261, .lognormal_k = 5.55555555};
     ref_atmosphere *a = &file->atmosphere;
-    *a = (ref_atmosphere){.rayleigh = blank, .aerosol = blank, .ozone = blank};
+    *a = (ref_atmosphere){.rayleigh = blank, .aerosol = blank, .ozone = blank, .dust = blank};
     const int line = ini_parse(name, take, &r);
     if (line != 0)
         return complain(name, line < 0 ? 0 : line, line < 0 ? "cannot be read" : "unknown key or bad value");
     a->bands = r.counts[1]; // of wavelength_nm
-    for (int i = 0; i < 7; i++)
+    for (int i = 0; i < 10; i++)
         if (r.counts[i] != 0 && r.counts[i] != a->bands)
             return complain(name, 0, "the lists differ in length");
     if (a->bands < 3 || !(a->radius_km > 0) || !(a->top_km > 0))
         return complain(name, 0, "[planet] radius_km, top_km and [bands] wavelength_nm of 3 or 4 bands are needed");
-    return read_table(&r, 0, &a->rayleigh) || read_table(&r, 1, &a->aerosol) || read_table(&r, 2, &a->ozone) ? -1 : 0;
+    return read_table(&r, 0, &a->rayleigh) || read_table(&r, 1, &a->aerosol) || read_table(&r, 2, &a->ozone) ||
+                   read_table(&r, 3, &a->dust)
+               ? -1
+               : 0;
 }

@@ -6,7 +6,7 @@
 
 typedef struct ref_file {
     ref_atmosphere atmosphere;
-    double table_km[3][REF_TABLE_ROWS], table_density[3][REF_TABLE_ROWS]; ///< the atmosphere points in here
+    double table_km[4][REF_TABLE_ROWS], table_density[4][REF_TABLE_ROWS]; ///< the atmosphere points in here
 } ref_file;
 
 /// @return 0; else a line `file:line: what` was written to stderr.

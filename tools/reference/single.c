@@ -36,7 +36,7 @@ typedef struct path {
     double b_sun, nu; // r mu_s at the start
     double sin2;      // 1 - nu^2
     double length;    // to the end of the integral
-    double phase[2];  // Rayleigh, aerosol
+    double phase[3];  // Rayleigh, aerosol, dust
 } path;
 
 typedef struct panel {
@@ -50,11 +50,19 @@ double ref_phase_rayleigh(double nu) {
     return 3 / (16 * PI) * (1 + nu * nu);
 }
 
-double ref_phase_aerosol(const ref_atmosphere *a, double nu_minus, double nu_plus) {
-    const double g = a->g, nu = nu_minus < nu_plus ? 1 - nu_minus : nu_plus - 1;
+static double phase_of(ref_phase kind, double g, double nu_minus, double nu_plus) {
+    const double nu = nu_minus < nu_plus ? 1 - nu_minus : nu_plus - 1;
     const double d = g >= 0 ? (1 - g) * (1 - g) + 2 * g * nu_minus : (1 + g) * (1 + g) - 2 * g * nu_plus;
     const double hg = (1 - g) * (1 + g) / (4 * PI * d * sqrt(d));
-    return a->phase == REF_HENYEY_GREENSTEIN ? hg : hg * 1.5 * (1 + nu * nu) / (2 + g * g);
+    return kind == REF_HENYEY_GREENSTEIN ? hg : hg * 1.5 * (1 + nu * nu) / (2 + g * g);
+}
+
+double ref_phase_aerosol(const ref_atmosphere *a, double nu_minus, double nu_plus) {
+    return phase_of(a->phase, a->g, nu_minus, nu_plus);
+}
+
+double ref_phase_dust(const ref_atmosphere *a, double nu_minus, double nu_plus) {
+    return phase_of(a->dust_phase, a->dust_g, nu_minus, nu_plus);
 }
 
 // Sine and cosine in degrees, exact at the multiples of 90.
@@ -121,11 +129,11 @@ static void integrand(const path *p, const panel *q, double s, double weight, do
     const double h = ref_height(w, e) + a->ground_km;
     const double rayleigh = p->phase[0] * ref_density(&a->rayleigh, h);
     const double aerosol = p->phase[1] * ref_density(&a->aerosol, h);
-    for (int i = 0; i < a->bands; i++) {
-        const double depth = a->rayleigh_scattering[i] * column[0] + a->aerosol_extinction[i] * column[1] +
-                             a->ozone_absorption[i] * column[2];
-        sum[i] += weight * exp(-depth) * (a->rayleigh_scattering[i] * rayleigh + a->aerosol_scattering[i] * aerosol);
-    }
+    const double dust = p->phase[2] * ref_density(&a->dust, h);
+    for (int i = 0; i < a->bands; i++)
+        sum[i] +=
+            weight * exp(-ref_depth(a, column, i)) *
+            (a->rayleigh_scattering[i] * rayleigh + a->aerosol_scattering[i] * aerosol + a->dust_scattering[i] * dust);
 }
 
 static void integrate(const path *p, panel *q) {
@@ -196,8 +204,10 @@ static int cuts_of(const path *p, double *cuts) {
     const double h = ref_height(w, p->e) + a->ground_km;
     double extinction = 0;
     for (int i = 0; i < a->bands; i++)
-        extinction = fmax(extinction, a->rayleigh_scattering[i] * ref_density(&a->rayleigh, h) +
-                                          a->aerosol_extinction[i] * ref_density(&a->aerosol, h));
+        extinction =
+            fmax(extinction, (a->rayleigh_scattering[i] + a->rayleigh_absorption[i]) * ref_density(&a->rayleigh, h) +
+                                 a->aerosol_extinction[i] * ref_density(&a->aerosol, h) +
+                                 a->dust_extinction[i] * ref_density(&a->dust, h));
     if (extinction * p->length > 8)
         for (double t = 2; t < 200; t *= 8)
             cut(cuts, &n, t / extinction, p->length);
@@ -285,12 +295,9 @@ static void light_ground(const path *p, ref_answer *answer) {
         return;
     double column[REF_SPECIES] = {0};
     ref_stretch(w, 0, b, ref_to_top(w, 0, b), column);
-    for (int i = 0; i < a->bands; i++) {
-        const double depth = a->rayleigh_scattering[i] * column[0] + a->aerosol_extinction[i] * column[1] +
-                             a->ozone_absorption[i] * column[2];
-        answer->radiance[i] +=
-            a->albedo[i] / PI * a->irradiance[i] * (b / w->ground) * exp(-depth) * answer->transmittance[i];
-    }
+    for (int i = 0; i < a->bands; i++)
+        answer->radiance[i] += a->albedo[i] / PI * a->irradiance[i] * (b / w->ground) * exp(-ref_depth(a, column, i)) *
+                               answer->transmittance[i];
 }
 
 static path make_path(const ref_world *w, const ref_ray *ray) {
@@ -299,6 +306,7 @@ static path make_path(const ref_world *w, const ref_ray *ray) {
     p.sin2 = ray->nu_minus * ray->nu_plus;
     p.phase[0] = ref_phase_rayleigh(ray->nu);
     p.phase[1] = ref_phase_aerosol(w->atmosphere, ray->nu_minus, ray->nu_plus);
+    p.phase[2] = ref_phase_dust(w->atmosphere, ray->nu_minus, ray->nu_plus);
     return p;
 }
 
@@ -329,10 +337,7 @@ int ref_single(const ref_atmosphere *a, const ref_ray *ray, int lit_ground, cons
     const int status = refine(&p, panels, &count, o->tolerance, answer);
     free(panels);
     for (int i = 0; i < REF_BANDS; i++) {
-        const double tau = i < a->bands ? a->rayleigh_scattering[i] * depth[0] + a->aerosol_extinction[i] * depth[1] +
-                                              a->ozone_absorption[i] * depth[2]
-                                        : 0;
-        answer->transmittance[i] = exp(-tau);
+        answer->transmittance[i] = i < a->bands ? exp(-ref_depth(a, depth, i)) : 1;
         answer->radiance[i] *= i < a->bands ? a->irradiance[i] : 0;
     }
     if (lit_ground && answer->meets_ground)
@@ -344,10 +349,12 @@ void ref_column(const ref_atmosphere *a, const ref_ray *ray, double length_km, d
     ref_world world;
     ref_world_make(&world, a, 24);
     path p = make_path(&world, ray);
-    double skipped;
+    double skipped, all[REF_SPECIES] = {0};
     column[0] = column[1] = column[2] = 0;
     if (!enter(&world, &p, &skipped) || length_km <= skipped)
         return;
     end_path(&p, length_km - skipped);
-    ref_stretch(&world, p.e, p.b, p.length, column);
+    ref_stretch(&world, p.e, p.b, p.length, all);
+    for (int i = 0; i < 3; i++)
+        column[i] = all[i];
 }

@@ -40,7 +40,7 @@ typedef struct ref_atmosphere {
     double radius_km, top_km;
     double ground_km; ///< altitude of the ground above the sea: the planet is a sphere of radius_km + ground_km
     double wavelength_nm[REF_BANDS], irradiance[REF_BANDS], albedo[REF_BANDS];
-    double rayleigh_scattering[REF_BANDS];
+    double rayleigh_scattering[REF_BANDS], rayleigh_absorption[REF_BANDS];
     ref_profile rayleigh;
     double aerosol_scattering[REF_BANDS], aerosol_extinction[REF_BANDS];
     ref_profile aerosol;
@@ -48,6 +48,10 @@ typedef struct ref_atmosphere {
     double g;
     double ozone_absorption[REF_BANDS];
     ref_profile ozone;
+    double dust_scattering[REF_BANDS], dust_extinction[REF_BANDS];
+    ref_profile dust;
+    ref_phase dust_phase;
+    double dust_g;
 } ref_atmosphere;
 
 /// A ray and the sun. The three cosines alone lose the small angles, so what forms them goes along.
@@ -95,5 +99,6 @@ void ref_column(const ref_atmosphere *atmosphere, const ref_ray *ray, double len
 /// Phase function, 1/sr.
 double ref_phase_rayleigh(double nu);
 double ref_phase_aerosol(const ref_atmosphere *atmosphere, double nu_minus, double nu_plus);
+double ref_phase_dust(const ref_atmosphere *atmosphere, double nu_minus, double nu_plus);
 
 #endif

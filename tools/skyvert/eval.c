@@ -13,7 +13,7 @@ static const char help[] =
     "usage: skyvert eval --atmosphere FILE.ini [OPTION...] < queries.csv > answers.csv\n\n"
     "Spectral radiance of the sky for every row of the queries, W m^-2 sr^-1 nm^-1 for the file's solar\n"
     "irradiance. The sun is a point and not drawn; no refraction.\n\n"
-    "  --atmosphere FILE      planet, bands, Rayleigh, aerosol and ozone (below)\n"
+    "  --atmosphere FILE      planet, bands, Rayleigh, aerosol, dust and ozone (below)\n"
     "  --tier fast|standard|high\n"
     "                         gauss-exp with 4, 6 or 8 samples and the Chapman form (standard)\n"
     "  --rule uniform|keller|gauss-exp\n"
@@ -35,14 +35,17 @@ static const char help[] =
     "  [planet]    radius_km, top_km (altitude of the top), albedo (one per band)\n"
     "  [bands]     wavelength_nm, solar_irradiance (3 or 4 values; 1 gives answers in 1/sr)\n"
     "  [rayleigh]  scattering_per_km (list, at altitude 0), profile = exponential | us76 | table;\n"
-    "              scale_height_km; us76: exp(-a h^b), a and b (.07771971, 1.16364243)\n"
+    "              scale_height_km; us76: exp(-a h^b), a and b (.07771971, 1.16364243);\n"
+    "              absorption_per_km (of the gas beside that, list, zeros)\n"
     "  [aerosol]   scattering_per_km, extinction_per_km (lists, at altitude 0), profile = exponential |\n"
     "              exponential-background | table; scale_height_km, background;\n"
     "              phase = henyey-greenstein | cornette-shanks; g\n"
+    "  [dust]      a second layer: the keys of [aerosol], coefficients at density 1; also profile = tent |\n"
+    "              lognormal (normalised to 1 at the peak), with the keys that they have in [ozone]\n"
     "  [ozone]     absorption_per_km (list, at the peak), profile = tent | lognormal | table; peak_km,\n"
     "              half_width_km; lognormal: mu and k (3.22261, 5.55555555)\n"
     "  table = FILE: rows altitude_km,relative_density; relative names start at the ini file's folder\n"
-    "[aerosol] and [ozone] may be missing: there is none then. What has no default here is needed.\n\n"
+    "[aerosol], [dust] and [ozone] may be missing: there is none then. What has no default here is needed.\n\n"
     "Exit status: 0 every row was answered, 1 writing failed, 2 bad input (nothing is written).\n";
 
 typedef struct settings {

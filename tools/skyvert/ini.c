@@ -33,13 +33,16 @@ static void fail_line(reading *r, int line, const char *format, ...) {
 
 static const struct {
     const char *section;
-    const char *keys[10];
+    const char *keys[13];
 } known[] = {
     {"planet", {"radius_km", "top_km", "albedo"}},
     {"bands", {"wavelength_nm", "solar_irradiance"}},
-    {"rayleigh", {"scattering_per_km", "profile", "scale_height_km", "a", "b", "table"}},
+    {"rayleigh", {"scattering_per_km", "absorption_per_km", "profile", "scale_height_km", "a", "b", "table"}},
     {"aerosol",
      {"scattering_per_km", "extinction_per_km", "profile", "scale_height_km", "background", "phase", "g", "table"}},
+    {"dust",
+     {"scattering_per_km", "extinction_per_km", "profile", "scale_height_km", "background", "phase", "g", "peak_km",
+      "half_width_km", "mu", "k", "table"}},
     {"ozone", {"absorption_per_km", "profile", "peak_km", "half_width_km", "mu", "k", "table"}},
 };
 enum { KNOWN = sizeof known / sizeof known[0] };
@@ -54,7 +57,7 @@ static int find_known(const char *section) {
 static void check_key(reading *r, const ini_entry *e) {
     const int i = find_known(e->section);
     char allowed[300] = "";
-    for (int k = 0; i >= 0 && k < 10 && known[i].keys[k]; k++) {
+    for (int k = 0; i >= 0 && k < 13 && known[i].keys[k]; k++) {
         if (strcmp(known[i].keys[k], e->name) == 0)
             return;
         const size_t used = strlen(allowed);
@@ -67,9 +70,10 @@ static void check_names(reading *r) {
     const ini_document *const d = r->document;
     for (size_t i = 0; i < d->sections; i++)
         if (find_known(d->section[i].name) < 0)
-            fail_line(r, d->section[i].line,
-                      "unknown section [%.40s]; allowed are [planet], [bands], [rayleigh], [aerosol] and [ozone]",
-                      d->section[i].name);
+            fail_line(
+                r, d->section[i].line,
+                "unknown section [%.40s]; allowed are [planet], [bands], [rayleigh], [aerosol], [dust] and [ozone]",
+                d->section[i].name);
     for (size_t i = 0; i < d->entries && !r->result; i++)
         check_key(r, &d->entry[i]);
     for (int i = 0; i < 3; i++)
@@ -141,8 +145,9 @@ static int parse_list(reading *r, const ini_entry *e, char *copy, range allowed,
     return n;
 }
 
-static int take_doubles(reading *r, const char *section, const char *key, range allowed, double values[4]) {
-    const ini_entry *const e = find(r, section, key, true);
+static int take_doubles(reading *r, const char *section, const char *key, bool needed, range allowed,
+                        double values[4]) {
+    const ini_entry *const e = find(r, section, key, needed);
     if (!e)
         return 0;
     char *const copy = strdup(e->value);
@@ -155,9 +160,10 @@ static int take_doubles(reading *r, const char *section, const char *key, range 
     return n;
 }
 
-static void take_list(reading *r, const char *section, const char *key, range allowed, float values[4]) {
+/// Where a list has a default it is zeros.
+static void take_list(reading *r, const char *section, const char *key, bool needed, range allowed, float values[4]) {
     double v[4];
-    const int n = take_doubles(r, section, key, allowed, v);
+    const int n = take_doubles(r, section, key, needed, allowed, v);
     for (int i = 0; i < n; i++)
         values[i] = (float)v[i];
 }
@@ -293,7 +299,7 @@ static void take_bands(reading *r) {
     skv_atmosphere *const a = &r->file->atmosphere;
     double nm[4];
     a->bands = 0;
-    const int n = take_doubles(r, "bands", "wavelength_nm", (range){200, 3000}, nm);
+    const int n = take_doubles(r, "bands", "wavelength_nm", true, (range){200, 3000}, nm);
     for (int i = 0; i < n; i++) {
         a->wavelength_nm[i] = (float)nm[i];
         snprintf(r->file->band_name[i], sizeof r->file->band_name[i], "%.10g", nm[i]);
@@ -303,7 +309,7 @@ static void take_bands(reading *r) {
                       r->file->band_name[i - 1]);
     }
     a->bands = n;
-    take_list(r, "bands", "solar_irradiance", (range){0, 1e6}, a->solar_irradiance);
+    take_list(r, "bands", "solar_irradiance", true, (range){0, 1e6}, a->solar_irradiance);
 }
 
 static void take_planet(reading *r) {
@@ -313,39 +319,56 @@ static void take_planet(reading *r) {
     if (!r->result && a->top_km > a->radius_km)
         fail_line(r, find(r, "planet", "top_km", true)->line, "top_km = %g: allowed is at most radius_km, %g",
                   (double)a->top_km, (double)a->radius_km);
-    take_list(r, "planet", "albedo", (range){0, 1}, a->albedo);
+    take_list(r, "planet", "albedo", true, (range){0, 1}, a->albedo);
 }
 
 static void take_rayleigh(reading *r) {
     static const char *const names[] = {"exponential", "us76", "table", NULL};
     static const skv_profile_kind kinds[] = {SKV_PROFILE_EXPONENTIAL, SKV_PROFILE_US76, SKV_PROFILE_TABLE};
     skv_atmosphere *const a = &r->file->atmosphere;
-    take_list(r, "rayleigh", "scattering_per_km", coefficient, a->rayleigh_scattering_per_km);
+    take_list(r, "rayleigh", "scattering_per_km", true, coefficient, a->rayleigh_scattering_per_km);
+    take_list(r, "rayleigh", "absorption_per_km", false, coefficient, a->rayleigh_absorption_per_km);
     take_profile(r, "rayleigh", names, kinds, &a->rayleigh);
+}
+
+/// What aerosol and dust have in common.
+static void take_particles(reading *r, const char *section, float scattering[4], float extinction[4], skv_phase *phase,
+                           float *g) {
+    static const char *const phases[] = {"henyey-greenstein", "cornette-shanks", NULL};
+    take_list(r, section, "scattering_per_km", true, coefficient, scattering);
+    take_list(r, section, "extinction_per_km", true, coefficient, extinction);
+    for (int i = 0; i < r->file->atmosphere.bands && !r->result; i++)
+        if (extinction[i] < scattering[i])
+            fail_line(r, find(r, section, "extinction_per_km", true)->line,
+                      "extinction_per_km = %g in band %d: allowed is scattering_per_km, %g, or more",
+                      (double)extinction[i], i + 1, (double)scattering[i]);
+    *phase = take_choice(r, section, "phase", phases) == 1 ? SKV_PHASE_CS : SKV_PHASE_HG;
+    take_number(r, section, "g", true, (range){-.9999, .9999}, g);
 }
 
 static void take_aerosol(reading *r) {
     static const char *const names[] = {"exponential", "exponential-background", "table", NULL};
     static const skv_profile_kind kinds[] = {SKV_PROFILE_EXPONENTIAL, SKV_PROFILE_EXP_BACKGROUND, SKV_PROFILE_TABLE};
-    static const char *const phases[] = {"henyey-greenstein", "cornette-shanks", NULL};
     skv_atmosphere *const a = &r->file->atmosphere;
-    take_list(r, "aerosol", "scattering_per_km", coefficient, a->aerosol_scattering_per_km);
-    take_list(r, "aerosol", "extinction_per_km", coefficient, a->aerosol_extinction_per_km);
-    for (int i = 0; i < a->bands && !r->result; i++)
-        if (a->aerosol_extinction_per_km[i] < a->aerosol_scattering_per_km[i])
-            fail_line(r, find(r, "aerosol", "extinction_per_km", true)->line,
-                      "extinction_per_km = %g in band %d: allowed is scattering_per_km, %g, or more",
-                      (double)a->aerosol_extinction_per_km[i], i + 1, (double)a->aerosol_scattering_per_km[i]);
+    take_particles(r, "aerosol", a->aerosol_scattering_per_km, a->aerosol_extinction_per_km, &a->aerosol_phase,
+                   &a->aerosol_g);
     take_profile(r, "aerosol", names, kinds, &a->aerosol);
-    a->aerosol_phase = take_choice(r, "aerosol", "phase", phases) == 1 ? SKV_PHASE_CS : SKV_PHASE_HG;
-    take_number(r, "aerosol", "g", true, (range){-.9999, .9999}, &a->aerosol_g);
+}
+
+static void take_dust(reading *r) {
+    static const char *const names[] = {"exponential", "exponential-background", "tent", "lognormal", "table", NULL};
+    static const skv_profile_kind kinds[] = {SKV_PROFILE_EXPONENTIAL, SKV_PROFILE_EXP_BACKGROUND, SKV_PROFILE_TENT,
+                                             SKV_PROFILE_LOGNORMAL, SKV_PROFILE_TABLE};
+    skv_atmosphere *const a = &r->file->atmosphere;
+    take_particles(r, "dust", a->dust_scattering_per_km, a->dust_extinction_per_km, &a->dust_phase, &a->dust_g);
+    take_profile(r, "dust", names, kinds, &a->dust);
 }
 
 static void take_ozone(reading *r) {
     static const char *const names[] = {"tent", "lognormal", "table", NULL};
     static const skv_profile_kind kinds[] = {SKV_PROFILE_TENT, SKV_PROFILE_LOGNORMAL, SKV_PROFILE_TABLE};
     skv_atmosphere *const a = &r->file->atmosphere;
-    take_list(r, "ozone", "absorption_per_km", coefficient, a->ozone_absorption_per_km);
+    take_list(r, "ozone", "absorption_per_km", true, coefficient, a->ozone_absorption_per_km);
     take_profile(r, "ozone", names, kinds, &a->ozone);
 }
 
@@ -356,6 +379,8 @@ static void take_all(reading *r) {
     take_rayleigh(r);
     if (ini_find_section(r->document, "aerosol"))
         take_aerosol(r);
+    if (ini_find_section(r->document, "dust"))
+        take_dust(r);
     if (ini_find_section(r->document, "ozone"))
         take_ozone(r);
 }

@@ -10,7 +10,7 @@
 typedef struct atmosphere_file {
     skv_atmosphere atmosphere; ///< its tables lie in `memory`
     char band_name[4][32];     ///< wavelengths as the file's numbers print: "440", "445.5"
-    float *memory[6];          ///< owned: altitude and density of up to three tables
+    float *memory[8];          ///< owned: altitude and density of up to four tables
 } atmosphere_file;
 
 /// Reads and checks a file; what it returns is accepted by skv_model_build().

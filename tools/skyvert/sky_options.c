@@ -5,7 +5,8 @@
 
 #include "command.h"
 
-static const char *const preset_names[] = {"earth-clear", "earth-hazy", "mars", "tiny", "giant", NULL};
+static const char *const preset_names[] = {"earth-clear", "earth-hazy", "mars",  "tiny",        "giant", "earth-thin",
+                                           "earth-dense", "earth-x25",  "titan", "earth-smoke", NULL};
 static const char *const tier_names[] = {"fast", "standard", "high", NULL};
 static const char *const rule_names[] = {"uniform", "keller", "gauss-exp", NULL};
 static const char *const ground_names[] = {"none", "lit", "land", "water", NULL};
@@ -14,10 +15,11 @@ enum { GROUND_NONE, GROUND_LIT, GROUND_LAND, GROUND_WATER };
 // clang-format off
 const char sky_options_help[] =
     "Air and integration:\n"
-    "  --preset NAME          earth-clear (default), earth-hazy, mars, tiny or giant\n"
+    "  --preset NAME          earth-clear (default), earth-hazy, earth-thin (a fifth of the air), earth-dense\n"
+    "                         (five times), earth-x25, earth-smoke, mars, titan, tiny or giant\n"
     "  --atmosphere FILE.ini  an atmosphere of your own instead\n"
     "  --bands 3|4            spectral bands of a preset (default 4)\n"
-    "  --turbidity T          multiplies the aerosol, 0 to 10000 (default 1)\n"
+    "  --turbidity T          multiplies aerosol and dust, 0 to 10000 (default 1)\n"
     "  --ground land|water|none\n"
     "                         what the ground sends back: its albedo's share of the light (default; lit is the\n"
     "                         same), what a sea mirrors, or nothing\n"

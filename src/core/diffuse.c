@@ -7,55 +7,62 @@
 ///        + a3 k6 P3(mu) + a4 k7 P4(mu) + k8 aureole(v.s)
 ///
 /// No angle is divided by: with the sun in the zenith nothing has to be decided.
-#ifndef SKV_CORE_DIFFUSE_H
-#define SKV_CORE_DIFFUSE_H
-
 #include "core/cells.h"
-#include "core/gauss.h"
 #include "core/fine_fit.h"
-#include "core/rays.h"
+#include "core/gauss_legendre.h"
+#include "core/legs.h"
 #include "core/slices.h"
-#include "core/ends.h"
+#include "core/stages.h"
+
+#if SKV_TERM_DIFFUSE
 
 /// Samples of up to SKV_LANES legs: what the source needs.
 typedef struct skv_diffuse_samples {
     skv_lanes x, y; ///< coordinates in the table
     skv_lanes mu, q, mu_s;
-    skv_lanes density[2];           ///< that scatters, times path length
-    skv_lanes decay[SKV_BANDS_MAX]; ///< transmittance to the observer
+    skv_lanes density[SKV_SCATTERERS]; ///< that scatters, times path length
+    skv_lanes decay[SKV_BANDS_MAX];    ///< transmittance to the observer
 } skv_diffuse_samples;
 
 /// Polynomials in which the numbers of a cell are coefficients.
 SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, const skv_diffuse_samples *q, int l,
-                                   const float aureole[2], float out[]) {
+                                   const float aureole[SKV_SCATTERERS], float out[]) {
     const skv_table *const t = frame->diffuse.table;
     const skv_cells_place place = skv_cells_find(t, q->x.v[l], q->y.v[l]);
     float c0[SKV_BANDS_MAX], k[SKV_CELLS_VALUES];
     skv_cells_read(t, bands, &place, c0, k);
     const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
     const float p2 = 1.5f * mu2 - 0.5f, mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
-    float fine[SKV_TABLE_FINE];
-    skv_fine_basis(frame->diffuse.moment[1], aureole[1], mu, x, mu_s, fine);
+    float one[SKV_BANDS_MAX], two[SKV_BANDS_MAX], sum[SKV_BANDS_MAX];
     for (int b = 0; b < bands; b++) {
-        const float one = k[b] * mu + k[bands + b] * x;
-        const float two = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
-        float sum = 0.0f;
-        if (SKV_PRESENT(has, SKV_RAYLEIGH))
-            sum += frame->rayleigh_per_km[b] * q->density[0].v[l] * skv_maxf(1.0f + 0.1f * two, 0.0f);
-        if (SKV_PRESENT(has, SKV_AEROSOL)) {
-            const float *const a = frame->diffuse.moment[1];
-            float more = a[0] * one + a[1] * two;
+        one[b] = k[b] * mu + k[bands + b] * x;
+        two[b] = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
+        sum[b] = 0.0f;
+    }
+    if (SKV_PRESENT(has, SKV_RAYLEIGH))
+        for (int b = 0; b < bands; b++)
+            sum[b] += frame->scattering_per_km[SKV_RAYLEIGH][b] * q->density[SKV_RAYLEIGH].v[l] *
+                      skv_maxf(1.0f + 0.1f * two[b], 0.0f);
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        const float *const a = frame->diffuse.moment[s];
+        float fine[SKV_TABLE_FINE];
+        if (!SKV_PRESENT(has, s))
+            continue;
+        skv_fine_basis(a, aureole[s], mu, x, mu_s, fine);
+        for (int b = 0; b < bands; b++) {
+            float more = 1.0f + a[0] * one[b] + a[1] * two[b];
             for (int i = 0; i < SKV_TABLE_FINE; i++)
                 more += k[(5 + i) * bands + b] * fine[i];
-            sum += frame->aerosol_per_km[b] * q->density[1].v[l] * skv_maxf(1.0f + more, 0.0f);
+            sum[b] += frame->scattering_per_km[s][b] * q->density[s].v[l] * skv_maxf(more, 0.0f);
         }
-        out[b] += c0[b] * sum * q->decay[b].v[l];
     }
+    for (int b = 0; b < bands; b++)
+        out[b] += c0[b] * sum[b] * q->decay[b].v[l];
 }
 
 /// One slice of a leg, [a, b], of each lane.
 static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_legs *leg, int count,
-                                           const skv_lanes aureole[2], float radiance[][SKV_BANDS_MAX]) {
+                                           const skv_lanes aureole[SKV_SCATTERERS], float radiance[][SKV_BANDS_MAX]) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int n = frame->diffuse.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
@@ -90,20 +97,22 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
         }
         SKV_EACH_LANE(l) q.x.v[l] = skv_sqrtf(q.x.v[l]) * rows;
         skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);
-        for (int s = 0; s < SKV_SPECIES; s++)
-            if (SKV_PRESENT(has, s))
-                SKV_EACH_LANE(l)
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l)
         c.of[s].v[l] = skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * c.of[s].v[l], 0.0f);
-        for (int s = 0; s < 2; s++)
-            if (SKV_PRESENT(has, s)) {
-                skv_scattering_density(frame, has, &p, s, &q.density[s]);
-                SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
-            }
+        SKV_EACH_SCATTERER(s)
+        if (SKV_PRESENT(has, s)) {
+            skv_scattering_density(frame, has, &p, s, &q.density[s]);
+            SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
+        }
         for (int b = 0; b < bands; b++)
             SKV_EACH_LANE(l)
         q.decay[b].v[l] = skv_decay(&frame->limits, -skv_optical_depth_log2e(frame, has, &c, b, l));
         for (int l = 0; l < count; l++) {
-            const float a[2] = {aureole[0].v[l], aureole[1].v[l]};
+            float a[SKV_SCATTERERS];
+            for (int s = 0; s < SKV_SCATTERERS; s++)
+                a[s] = aureole[s].v[l];
             if (!(leg->b.v[l] > leg->a.v[l]))
                 continue;
 #if SKV_BANDS == 0
@@ -121,7 +130,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
 /// One part of the rays of a block as legs; the planet's shadow does not matter here.
 static SKV_NOINLINE int skv_diffuse_legs(const skv_frame *frame, int light, size_t n, size_t first,
                                          const skv_rays *rays, int part, skv_legs *restrict leg,
-                                         skv_lanes aureole[restrict 2]) {
+                                         skv_lanes aureole[restrict SKV_SCATTERERS]) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const float *const to = frame->diffuse.toward_enu[light];
     skv_block block;
@@ -134,8 +143,9 @@ static SKV_NOINLINE int skv_diffuse_legs(const skv_frame *frame, int light, size
     SKV_EACH_LANE(l) {
         const float x = block.view[0].v[l] - to[0], y = block.view[1].v[l] - to[1], z = block.view[2].v[l] - to[2];
         const float near = 0.5f * (x * x + y * y + z * z);
-        aureole[0].v[l] = 0.0f;
-        aureole[1].v[l] = skv_aureole(frame->diffuse.aureole[1], near);
+        for (int s = 0; s < SKV_SCATTERERS; s++)
+            aureole[s].v[l] =
+                SKV_PRESENT(has, s) && s != SKV_RAYLEIGH ? skv_aureole(frame->diffuse.aureole[s], near) : 0.0f;
     }
     return part + 1 < block.parts;
 }
@@ -151,7 +161,7 @@ void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays
                 radiance[l][b] = 0.0f;
         for (int part = 0, more = 1; more; part++) {
             skv_legs leg;
-            skv_lanes aureole[2];
+            skv_lanes aureole[SKV_SCATTERERS];
             more = skv_diffuse_legs(frame, light, n, first, rays, part, &leg, aureole);
             const int slices = skv_slices(frame, &leg);
             const skv_lanes last = leg.b;

@@ -1,10 +1,7 @@
 /// The far end of each ray: transmittance from it to the observer, and the light of the ground where it meets it.
-#ifndef SKV_CORE_ENDS_H
-#define SKV_CORE_ENDS_H
-
 #include "core/cells.h"
-#include "core/grid.h"
 #include "core/rays.h"
+#include "core/stages.h"
 
 /// Columns from the observer to the end of the ray.
 static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block,
@@ -28,27 +25,16 @@ static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, c
         sin_chi.v[l] = skv_minf(block->p_km.v[l] * p.inv_r.v[l], 1.0f);
     }
     skv_columns_up(frame, has, &p, &mu, &sin_chi, out);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) {
-                const int second = past.v[l] > 0.0f;
-                const float from = second && block->parts == 2 ? k[1].of[s].v[l] : k[0].of[s].v[l];
-                const float sigma = second ? -1.0f : -block->leg[0].dir.v[l];
-                // A ray of no length meets nothing, whatever the forms round to.
-                const int empty = !second && !(block->leg[0].b.v[l] > block->leg[0].a.v[l]);
-                out->of[s].v[l] = empty ? 0.0f : skv_maxf(from + sigma * out->of[s].v[l], 0.0f);
-            }
-}
-
-SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, const skv_columns *c, int band, int l) {
-    float tau = 0.0f;
-    if (SKV_PRESENT(has, SKV_RAYLEIGH))
-        tau += frame->rayleigh_log2e_per_km[band] * c->of[SKV_RAYLEIGH].v[l];
-    if (SKV_PRESENT(has, SKV_AEROSOL))
-        tau += frame->aerosol_log2e_per_km[band] * c->of[SKV_AEROSOL].v[l];
-    if (SKV_PRESENT(has, SKV_OZONE))
-        tau += frame->ozone_log2e_per_km[band] * c->of[SKV_OZONE].v[l];
-    return tau;
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) {
+            const int second = past.v[l] > 0.0f;
+            const float from = second && block->parts == 2 ? k[1].of[s].v[l] : k[0].of[s].v[l];
+            const float sigma = second ? -1.0f : -block->leg[0].dir.v[l];
+            // A ray of no length meets nothing, whatever the forms round to.
+            const int empty = !second && !(block->leg[0].b.v[l] > block->leg[0].a.v[l]);
+            out->of[s].v[l] = empty ? 0.0f : skv_maxf(from + sigma * out->of[s].v[l], 0.0f);
+        }
 }
 
 #if SKV_TERM_GROUND
@@ -71,9 +57,9 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
     }
     skv_points_above(frame, has, &h, &g);
     skv_columns_light(frame, has, &g, &rms, &c);
-    for (int s = 0; s < SKV_SPECIES; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) c.of[s].v[l] += view->of[s].v[l];
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        SKV_EACH_LANE(l) c.of[s].v[l] += view->of[s].v[l];
     for (int l = 0; l < block->count; l++) {
         if (!(block->meets_ground.v[l] > 0.0f))
             continue;
@@ -90,26 +76,7 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
 }
 #endif
 
-void skv_grid_amounts_of(const skv_frame *frame, size_t n, const skv_rays *rays, float *amount) {
-    const unsigned has = frame->has & SKV_HAS_BUILT;
-    const size_t bands = (size_t)SKV_BANDS_OF(has);
-    for (size_t first = 0; first < n; first += SKV_LANES) {
-        skv_block block;
-        skv_columns k[2], c;
-        skv_lanes of;
-        skv_block_load(frame, n, first, rays, &block);
-        skv_block_columns(frame, has, &block, k);
-        skv_grid_columns(frame, has, &block, k, &c);
-        for (size_t b = 0; b < bands; b++) {
-            skv_grid_amounts(frame, has, &c, (int)b, &of);
-            for (int l = 0; l < block.count; l++)
-                amount[(first + (size_t)l) * bands + b] = of.v[l];
-        }
-    }
-}
-
-/// @return whether any ray was refused.
-static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
+int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
@@ -143,5 +110,3 @@ static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_ray
     }
     return bad;
 }
-
-#endif
