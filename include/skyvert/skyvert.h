@@ -21,6 +21,11 @@
 #include "skyvert/irradiance.h"
 #include "skyvert/colour.h"
 #include "skyvert/sun.h"
+#include "skyvert/moonlight.h"
+#include "skyvert/disc.h"
+#include "skyvert/stars.h"
+#include "skyvert/night.h"
+#include "skyvert/water.h"
 #include "skyvert/dome.h"
 #include "skyvert/display.h"
 

@@ -73,7 +73,11 @@ typedef struct skv_table {
 } skv_table;
 
 /// Rays that a step gathers.
-#define SKV_TABLE_STEP_RAYS (SKV_LANES < 8 ? SKV_LANES : 8)
+#if SKV_LANES < 8
+#define SKV_TABLE_STEP_RAYS SKV_LANES
+#else
+#define SKV_TABLE_STEP_RAYS 8
+#endif
 
 /// State of a build; the caller's, written by the calls below only.
 typedef struct skv_table_builder {

@@ -159,7 +159,7 @@ void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays
         for (int l = 0; l < SKV_LANES; l++)
             for (int b = 0; b < SKV_BANDS_MAX; b++)
                 radiance[l][b] = 0.0f;
-        for (int part = 0, more = 1; more; part++) {
+        for (int part = 0, more = 1; part < 2 && more; part++) {
             skv_legs leg;
             skv_lanes aureole[SKV_SCATTERERS];
             more = skv_diffuse_legs(frame, light, n, first, rays, part, &leg, aureole);
