@@ -91,7 +91,7 @@ typedef struct skv_table_builder {
     int32_t row, column, ray;
     skv_frame frame;                 ///< of the cell in work
     float moment[7][SKV_BANDS_MAX];  ///< its gathered moments
-    float source[60][SKV_BANDS_MAX]; ///< what its forward-scattering species sends in some directions
+    float source[SKV_BANDS_MAX][60]; ///< what its forward-scattering species sends in some directions
     float change[SKV_BANDS_MAX];     ///< of the mean radiance over all cells, in this pass
     float before[SKV_BANDS_MAX];     ///< in the last one
     float rate[SKV_BANDS_MAX];       ///< of the series that the rest is taken as

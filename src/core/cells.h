@@ -93,63 +93,73 @@ SKV_INLINE skv_cells_place skv_cells_find(const skv_table *t, float x, float y) 
     return p;
 }
 
-/// All ratios of a cell.
+/// Most ratios of a cell.
 #define SKV_CELLS_VALUES ((SKV_TABLE_TERMS - 1) * SKV_BANDS_MAX)
 
-#define SKV_CELLS_MIX(type, base, k0, k1, n, out)                                                                      \
+/// Weighted sums of n numbers of four cells; two pairs of neighbours, `step` apart within a pair.
+#define SKV_CELLS_MIX(type, base, r0, step0, r1, step1, first, last, out)                                              \
     do {                                                                                                               \
-        const type *const a = (base) + (k0), *const b = a + (step), *const c = (base) + (k1), *const d = c + (step2);  \
-        for (int k = 0; k < (n); k++)                                                                                  \
-            (out)[k] = p->w00 * (float)a[k] + p->w01 * (float)b[k] + p->w10 * (float)c[k] + p->w11 * (float)d[k];      \
+        const type *const a = (base) + (r0) + (first), *const b = a + (step0);                                         \
+        const type *const c = (base) + (r1) + (first), *const d = c + (step1);                                         \
+        SKV_EACH_OF(k, (last) - (first))                                                                               \
+        (out)[k + (first)] =                                                                                           \
+            p->w00 * (float)a[k] + p->w01 * (float)b[k] + p->w10 * (float)c[k] + p->w11 * (float)d[k];                 \
     } while (0)
 
-/// Mean radiance c0 per band, and ratios [8][bands] to it.
-SKV_INLINE void skv_cells_read(const skv_table *t, int bands, const skv_cells_place *p, float c0[], float ratio[]) {
-    const size_t suns = t->suns,
-                 cell = ((size_t)p->row * suns + (size_t)p->column) * (size_t)bands + suns * (size_t)bands;
-    const size_t below = cell, above = cell + suns * (size_t)bands;
-    const int low = p->row < t->detailed ? SKV_TABLE_TERMS - 1 : 5,
-              high = p->row + 1 < t->detailed ? SKV_TABLE_TERMS - 1 : 5;
-    const int step = low * bands, step2 = high * bands, n = 5 * bands;
-    const size_t r0 = skv_cells_ratios(t, p->row, p->column), r1 = skv_cells_ratios(t, p->row + 1, p->column);
-    const size_t logs = (skv_cells_count(t) + suns) * (size_t)bands;
+/// The same of one pair.
+#define SKV_CELLS_MIX_LOW(type, base, r0, step0, first, last, out)                                                     \
+    do {                                                                                                               \
+        const type *const a = (base) + (r0) + (first), *const b = a + (step0);                                         \
+        SKV_EACH_OF(k, (last) - (first))                                                                               \
+        (out)[k + (first)] = p->w00 * (float)a[k] + p->w01 * (float)b[k];                                              \
+    } while (0)
+
+/// Ratios of degrees 1 and 2, and the fine ones where the lower row has them (they fade out towards the first row that
+/// has none).
+#define SKV_CELLS_RATIOS(type, base)                                                                                   \
+    do {                                                                                                               \
+        SKV_CELLS_MIX(type, base, r0, step0, r1, step1, 0, n, ratio);                                                  \
+        if (fine && step1 == step0)                                                                                    \
+            SKV_CELLS_MIX(type, base, r0, step0, r1, step1, n, all, ratio);                                            \
+        else if (fine)                                                                                                 \
+            SKV_CELLS_MIX_LOW(type, base, r0, step0, n, all, ratio);                                                   \
+    } while (0)
+
+/// log2 of the mean radiance, per band.
+SKV_INLINE void skv_cells_mean(const skv_table *t, int bands, const skv_cells_place *p, float log2_mean[]) {
+    const size_t wide = (size_t)bands, row = t->suns * wide;
+    const size_t low = (size_t)(p->row + 1) * row + (size_t)p->column * wide;
     if (t->format == SKV_TABLE_FLOAT) {
-        const float *const f = skv_cells_floats(t);
-        for (int b = 0; b < bands; b++)
-            c0[b] = p->w00 * f[below + (size_t)b] + p->w01 * f[below + (size_t)(b + bands)] +
-                    p->w10 * f[above + (size_t)b] + p->w11 * f[above + (size_t)(b + bands)];
-        SKV_CELLS_MIX(float, f + logs, r0, r1, n, ratio);
-        for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-            ratio[k] = 0.0f;
-        if (low > 5)
-            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-                ratio[k] = p->w00 * f[logs + r0 + (size_t)k] + p->w01 * f[logs + r0 + (size_t)(k + step)];
-        if (high > 5)
-            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-                ratio[k] += p->w10 * f[logs + r1 + (size_t)k] + p->w11 * f[logs + r1 + (size_t)(k + step2)];
-    } else {
-        const uint16_t *const code = skv_cells_codes(t);
-        const int8_t *const q = (const int8_t *)(const void *)(code + logs);
-        for (int b = 0; b < bands; b++)
-            c0[b] = SKV_CELLS_FLOOR +
-                    (p->w00 * (float)code[below + (size_t)b] + p->w01 * (float)code[below + (size_t)(b + bands)] +
-                     p->w10 * (float)code[above + (size_t)b] + p->w11 * (float)code[above + (size_t)(b + bands)]) *
-                        (1.0f / SKV_CELLS_STEPS);
-        SKV_CELLS_MIX(int8_t, q, r0, r1, n, ratio);
-        for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-            ratio[k] = 0.0f;
-        if (low > 5)
-            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-                ratio[k] = p->w00 * (float)q[r0 + (size_t)k] + p->w01 * (float)q[r0 + (size_t)(k + step)];
-        if (high > 5)
-            for (int k = n; k < (SKV_TABLE_TERMS - 1) * bands; k++)
-                ratio[k] += p->w10 * (float)q[r1 + (size_t)k] + p->w11 * (float)q[r1 + (size_t)(k + step2)];
-        for (int k = 0; k < SKV_TABLE_TERMS - 1; k++)
-            for (int b = 0; b < bands; b++)
-                ratio[k * bands + b] *= t->ratio_scale[k];
+        const float *const a = skv_cells_floats(t) + low, *const b = a + wide, *const c = a + row, *const d = c + wide;
+        SKV_EACH_OF(i, bands)
+        log2_mean[i] = p->w00 * a[i] + p->w01 * b[i] + p->w10 * c[i] + p->w11 * d[i];
+        return;
     }
-    for (int b = 0; b < bands; b++)
-        c0[b] = skv_exp2f(c0[b]);
+    const uint16_t *const a = skv_cells_codes(t) + low, *const b = a + wide, *const c = a + row, *const d = c + wide;
+    SKV_EACH_OF(i, bands)
+    log2_mean[i] = (p->w00 * (float)a[i] + p->w01 * (float)b[i] + p->w10 * (float)c[i] + p->w11 * (float)d[i]) *
+                       (1.0f / SKV_CELLS_STEPS) +
+                   SKV_CELLS_FLOOR;
+}
+
+/// Ratios [terms - 1][bands] to the mean radiance.
+/// @return whether there are fine ones; if not these are not written.
+SKV_INLINE int skv_cells_read(const skv_table *t, int bands, const skv_cells_place *p, float ratio[]) {
+    const size_t logs = (skv_cells_count(t) + t->suns) * (size_t)bands;
+    const size_t r0 = skv_cells_ratios(t, p->row, p->column), r1 = skv_cells_ratios(t, p->row + 1, p->column);
+    const int fine = p->row < t->detailed, n = 5 * bands, all = (SKV_TABLE_TERMS - 1) * bands;
+    const int step0 = fine ? all : n, step1 = p->row + 1 < t->detailed ? all : n;
+    if (t->format == SKV_TABLE_FLOAT) {
+        const float *const f = skv_cells_floats(t) + logs;
+        SKV_CELLS_RATIOS(float, f);
+        return fine;
+    }
+    const int8_t *const q = (const int8_t *)(const void *)(skv_cells_codes(t) + logs);
+    SKV_CELLS_RATIOS(int8_t, q);
+    for (int k = 0; k < (fine ? SKV_TABLE_TERMS - 1 : 5); k++)
+        for (int b = 0; b < bands; b++)
+            ratio[k * bands + b] *= t->ratio_scale[k];
+    return fine;
 }
 
 /// log2 of the diffuse irradiance of the ground per unit of the light's, at mu_s.

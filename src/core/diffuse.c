@@ -8,7 +8,7 @@
 ///
 /// No angle is divided by: with the sun in the zenith nothing has to be decided.
 #include "core/cells.h"
-#include "core/fine_fit.h"
+#include "core/fine.h"
 #include "core/gauss_legendre.h"
 #include "core/legs.h"
 #include "core/slices.h"
@@ -21,43 +21,72 @@ typedef struct skv_diffuse_samples {
     skv_lanes x, y; ///< coordinates in the table
     skv_lanes mu, q, mu_s;
     skv_lanes density[SKV_SCATTERERS]; ///< that scatters, times path length
-    skv_lanes decay[SKV_BANDS_MAX];    ///< transmittance to the observer
+    skv_cells_place place[SKV_LANES];
+    float decay[SKV_LANES][SKV_BANDS_MAX]; ///< mean radiance times transmittance to the observer
 } skv_diffuse_samples;
 
 /// Polynomials in which the numbers of a cell are coefficients.
 SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, const skv_diffuse_samples *q, int l,
-                                   const float aureole[SKV_SCATTERERS], float out[]) {
-    const skv_table *const t = frame->diffuse.table;
-    const skv_cells_place place = skv_cells_find(t, q->x.v[l], q->y.v[l]);
-    float c0[SKV_BANDS_MAX], k[SKV_CELLS_VALUES];
-    skv_cells_read(t, bands, &place, c0, k);
+                                   const skv_lanes aureole[SKV_SCATTERERS], float *restrict out) {
+    float k[SKV_CELLS_VALUES];
+    const int detailed = skv_cells_read(frame->diffuse.table, bands, &q->place[l], k);
     const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
     const float p2 = 1.5f * mu2 - 0.5f, mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
     float one[SKV_BANDS_MAX], two[SKV_BANDS_MAX], sum[SKV_BANDS_MAX];
-    for (int b = 0; b < bands; b++) {
+    const float gas = SKV_PRESENT(has, SKV_RAYLEIGH) ? q->density[SKV_RAYLEIGH].v[l] : 0.0f;
+    SKV_EACH_OF(b, bands) {
         one[b] = k[b] * mu + k[bands + b] * x;
         two[b] = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
-        sum[b] = 0.0f;
+        sum[b] = frame->scattering_per_km[SKV_RAYLEIGH][b] * gas * skv_maxf(1.0f + 0.1f * two[b], 0.0f);
     }
-    if (SKV_PRESENT(has, SKV_RAYLEIGH))
-        for (int b = 0; b < bands; b++)
-            sum[b] += frame->scattering_per_km[SKV_RAYLEIGH][b] * q->density[SKV_RAYLEIGH].v[l] *
-                      skv_maxf(1.0f + 0.1f * two[b], 0.0f);
     for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
-        const float *const a = frame->diffuse.moment[s];
-        float fine[SKV_TABLE_FINE];
+        const float *const a = frame->diffuse.moment[s], density = SKV_PRESENT(has, s) ? q->density[s].v[l] : 0.0f;
+        float more[SKV_BANDS_MAX];
         if (!SKV_PRESENT(has, s))
             continue;
-        skv_fine_basis(a, aureole[s], mu, x, mu_s, fine);
-        for (int b = 0; b < bands; b++) {
-            float more = 1.0f + a[0] * one[b] + a[1] * two[b];
-            for (int i = 0; i < SKV_TABLE_FINE; i++)
-                more += k[(5 + i) * bands + b] * fine[i];
-            sum[b] += frame->scattering_per_km[s][b] * q->density[s].v[l] * skv_maxf(more, 0.0f);
+        SKV_EACH_OF(b, bands) more[b] = 1.0f + a[0] * one[b] + a[1] * two[b];
+        if (detailed) {
+            float fine[SKV_TABLE_FINE];
+            skv_fine_basis(a, aureole[s].v[l], mu, x, mu_s, fine);
+            SKV_EACH_OF(b, bands) {
+                float t = more[b];
+                for (int i = 0; i < SKV_TABLE_FINE; i++)
+                    t += k[(5 + i) * bands + b] * fine[i];
+                more[b] = t;
+            }
         }
+        SKV_EACH_OF(b, bands) sum[b] += frame->scattering_per_km[s][b] * density * skv_maxf(more[b], 0.0f);
+    }
+    SKV_EACH_OF(b, bands) out[b] += sum[b] * q->decay[l][b];
+}
+
+/// Mean radiance of each sample's cell, as far as it reaches the observer: both logarithms in one exponential.
+SKV_INLINE void skv_diffuse_means(const skv_frame *frame, unsigned has, int bands, const skv_columns *c, int count,
+                                  skv_diffuse_samples *q) {
+    const skv_table *const t = frame->diffuse.table;
+    skv_lanes light[SKV_BANDS_MAX];
+    for (int l = 0; l < SKV_LANES; l++) {
+        float log2_mean[SKV_BANDS_MAX];
+        q->place[l] = skv_cells_find(t, q->x.v[l], q->y.v[l]);
+        skv_cells_mean(t, bands, &q->place[l], log2_mean);
+        for (int b = 0; b < bands; b++)
+            light[b].v[l] = log2_mean[b];
     }
     for (int b = 0; b < bands; b++)
-        out[b] += c0[b] * sum[b] * q->decay[b].v[l];
+        SKV_EACH_LANE(l)
+    light[b].v[l] = skv_decay(&frame->limits, light[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
+    for (int l = 0; l < count; l++)
+        for (int b = 0; b < bands; b++)
+            q->decay[l][b] = light[b].v[l];
+}
+
+SKV_INLINE void skv_diffuse_node(const skv_frame *frame, unsigned has, int bands, const skv_legs *leg,
+                                 const skv_columns *c, int count, const skv_lanes aureole[SKV_SCATTERERS],
+                                 skv_diffuse_samples *q, float radiance[][SKV_BANDS_MAX]) {
+    skv_diffuse_means(frame, has, bands, c, count, q);
+    for (int l = 0; l < count; l++)
+        if (leg->b.v[l] > leg->a.v[l])
+            skv_diffuse_source(frame, has, bands, q, l, aureole, radiance[l]);
 }
 
 /// One slice of a leg, [a, b], of each lane.
@@ -106,24 +135,14 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
             skv_scattering_density(frame, has, &p, s, &q.density[s]);
             SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
         }
-        for (int b = 0; b < bands; b++)
-            SKV_EACH_LANE(l)
-        q.decay[b].v[l] = skv_decay(&frame->limits, -skv_optical_depth_log2e(frame, has, &c, b, l));
-        for (int l = 0; l < count; l++) {
-            float a[SKV_SCATTERERS];
-            for (int s = 0; s < SKV_SCATTERERS; s++)
-                a[s] = aureole[s].v[l];
-            if (!(leg->b.v[l] > leg->a.v[l]))
-                continue;
 #if SKV_BANDS == 0
-            if (bands == 4)
-                skv_diffuse_source(frame, has, 4, &q, l, a, radiance[l]);
-            else
-                skv_diffuse_source(frame, has, 3, &q, l, a, radiance[l]);
+        if (bands == 4)
+            skv_diffuse_node(frame, has, 4, leg, &c, count, aureole, &q, radiance);
+        else
+            skv_diffuse_node(frame, has, 3, leg, &c, count, aureole, &q, radiance);
 #else
-            skv_diffuse_source(frame, has, SKV_BANDS, &q, l, a, radiance[l]);
+        skv_diffuse_node(frame, has, SKV_BANDS, leg, &c, count, aureole, &q, radiance);
 #endif
-        }
     }
 }
 

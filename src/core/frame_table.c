@@ -36,15 +36,15 @@ skv_status skv_frame_table(skv_frame *frame, const skv_table *table) {
         return SKV_ERR_NULL;
     if (frame->layout != SKV_LAYOUT || !frame->model || frame->model->layout != SKV_LAYOUT)
         return SKV_ERR_LAYOUT;
+    if (table && (table->magic != SKV_TABLE_MAGIC || table->version != SKV_TABLE_VERSION))
+        return SKV_ERR_LAYOUT;
+    if (table && (table->model != frame->model->hash || table->bands != skv_bands(frame->model)))
+        return SKV_ERR_MODEL;
     skv_frame_diffuse *const d = &frame->diffuse;
     d->grid = NULL;
     d->table = NULL;
     if (!table)
         return SKV_OK;
-    if (table->magic != SKV_TABLE_MAGIC || table->version != SKV_TABLE_VERSION)
-        return SKV_ERR_LAYOUT;
-    if (table->model != frame->model->hash || table->bands != skv_bands(frame->model))
-        return SKV_ERR_MODEL;
     skv_diffuse_moments(frame->model, d);
     d->samples = frame->quality.samples <= 4 ? 4 : 6;
     d->only = 0;

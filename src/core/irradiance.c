@@ -51,7 +51,10 @@ static void skv_irradiance_read(const skv_frame *frame, int light, skv_irradianc
     const float x = skv_clampf((frame->height_km + frame->diffuse.offset_km) * frame->diffuse.inv_span, 0.0f, 1.0f);
     const skv_cells_place p =
         skv_cells_find(t, skv_sqrtf(x) * (float)(t->altitudes - 1), skv_cells_column(mu_s, t->suns));
-    skv_cells_read(t, skv_bands(frame->model), &p, cell->mean, cell->k);
+    skv_cells_mean(t, skv_bands(frame->model), &p, cell->mean);
+    for (int b = 0; b < skv_bands(frame->model); b++)
+        cell->mean[b] = skv_exp2f(cell->mean[b]);
+    (void)skv_cells_read(t, skv_bands(frame->model), &p, cell->k);
     cell->mu_s = mu_s;
 }
 

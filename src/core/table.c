@@ -152,16 +152,20 @@ static int skv_table_rays(const skv_table_builder *b) {
     return 2 * b->spec.polar[later] * b->spec.azimuths[later];
 }
 
-/// What a gathered ray adds to the source of the kept species.
-static void skv_table_source(skv_table_builder *b, const skv_gather_ray *ray, const float radiance[]) {
+/// What gathered rays add to the source of the kept species.
+static SKV_NOINLINE void skv_table_source(skv_table_builder *b, const skv_gather_ray *ray, int count,
+                                          const float radiance[]) {
     const int kept = b->frame.diffuse.kept, bands = skv_bands(b->model);
-    for (int i = 0; i < SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS; i++) {
-        float v[3];
-        skv_fine_direction(i, v);
-        const float p =
-            ray->weight * skv_fine_phase(b->model->phase[kept] == SKV_PHASE_CS, b->model->g[kept], v, ray->direction);
-        for (int band = 0; band < bands; band++)
-            b->source[i][band] += p * radiance[band];
+    skv_fine_directions directions;
+    float phase[SKV_FINE_DIRECTIONS];
+    skv_fine_directions_init(&directions);
+    for (int i = 0; i < count; i++) {
+        skv_fine_phases(b->model->phase[kept] == SKV_PHASE_CS, b->model->g[kept], &directions, ray[i].direction, phase);
+        for (int band = 0; band < bands; band++) {
+            const float light = ray[i].weight * radiance[i * bands + band];
+            for (int k = 0; k < SKV_FINE_DIRECTIONS; k++)
+                b->source[band][k] += phase[k] * light;
+        }
     }
 }
 
@@ -184,9 +188,9 @@ static void skv_table_gather(skv_table_builder *b, int count) {
         for (int k = 0; k < SKV_GATHER_MOMENTS; k++)
             for (int band = 0; band < bands; band++)
                 b->moment[k][band] += ray[i].weight * radiance[i * bands + band] * factor[k];
-        if (b->row < b->work->detailed)
-            skv_table_source(b, &ray[i], radiance + i * bands);
     }
+    if (b->row < b->work->detailed)
+        skv_table_source(b, ray, count, radiance);
     b->ray += count;
 }
 
@@ -237,15 +241,13 @@ static void skv_table_cell_band(skv_table_builder *b, int band) {
     const int terms = b->row < t->detailed ? SKV_TABLE_TERMS : 6, kept = b->frame.diffuse.kept;
     const float mu_s = skv_cells_mu_s(b->column, t->suns);
     const skv_frame_diffuse *const d = &b->frame.diffuse;
-    float m[SKV_GATHER_MOMENTS], source[SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS];
+    float m[SKV_GATHER_MOMENTS];
     float now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];
     for (int k = 0; k < SKV_GATHER_MOMENTS; k++)
         m[k] = b->moment[k][band];
-    for (int k = 0; k < SKV_FINE_ELEVATIONS * SKV_FINE_AZIMUTHS; k++)
-        source[k] = b->source[k][band];
     skv_gather_low(m, mu_s, now);
     if (terms > 6)
-        skv_fine_fit(source, now, d->moment[kept], d->aureole[kept], d->toward_enu[0], mu_s, now + 6);
+        skv_fine_fit(b->source[band], now, d->moment[kept], d->aureole[kept], d->toward_enu[0], mu_s, now + 6);
     old[0] = b->pass > 1 ? skv_exp2f(*mean) : 0.0f;
     for (int k = 1; k < terms; k++)
         old[k] = b->pass > 1 ? ratio[(size_t)(k - 1) * bands] * old[0] : 0.0f;

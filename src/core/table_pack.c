@@ -86,7 +86,7 @@ skv_status skv_table_check(const void *bytes, size_t n, const skv_model *model) 
         return SKV_ERR_SIZE;
     if (t->magic != SKV_TABLE_MAGIC || t->version != SKV_TABLE_VERSION || t->format > SKV_TABLE_FLOAT ||
         (t->bands != 3 && t->bands != 4) || t->altitudes < 4 || t->altitudes > 32 || t->detailed > t->altitudes ||
-        t->suns < 8 || t->suns > 64 || t->bytes != skv_cells_bytes(t))
+        t->suns < 8 || t->suns > 64 || t->reserved != 0 || t->bytes != skv_cells_bytes(t))
         return SKV_ERR_LAYOUT;
     if (n < t->bytes)
         return SKV_ERR_SIZE;
