@@ -69,6 +69,7 @@ typedef struct skv_table {
     uint32_t model;    ///< skv_model.hash of the model it was built from
     float ground_km;   ///< row i lies at the altitude ground_km + span_km (i/(altitudes-1))^2
     float span_km;
+    float mu_first;                         ///< cosine of the sun's zenith angle of the first column
     float ratio_scale[SKV_TABLE_TERMS - 1]; ///< of the 8-bit ratios
 } skv_table;
 
@@ -160,8 +161,9 @@ size_t skv_grid_size(const skv_frame *frame);
 /// Rays with a length (skv_rays.length_km) are integrated all the same.
 /// @param[in,out] frame  with a table; a new frame needs a new grid.
 /// @param[out]    grid   of n bytes, aligned to 4; kept by reference.
-/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT iff the frame was not built or has no table; SKV_ERR_SIZE;
-///         SKV_ERR_UNSUPPORTED. On error the frame is not written.
+/// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT iff the frame was not built or has no table; SKV_ERR_RANGE iff the
+///         observer is higher than half the air: from there neighbouring directions meet air under suns too different;
+///         SKV_ERR_SIZE; SKV_ERR_UNSUPPORTED. On error the frame is not written.
 /// Cost:   468 integrations a light (README "Tables"): cheaper than without it from about 500 vertices on.
 skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n);
 

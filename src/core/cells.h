@@ -1,8 +1,7 @@
 /// The cells of a diffuse-light table: where they lie, and what stands between them.
 ///
-/// Axes: altitude by sqrt, sun by u/(.3+|u|), u = mu_s + .05, from mu_s = SKV_CELLS_MU_MIN to 1. A cell has per band
-/// log2 of the mean radiance c0, and ratios to it: degree 1 (2), degree 2 (3), and in detailed rows degrees 3 and 4
-/// about the vertical and the aureole (3).
+/// Axes: altitude by its square root, sun by u/(.15+|u|) + .6 u, u = mu_s + .05. A cell has per band log2 of the mean
+/// radiance c0 and ratios to it: degree 1 (2), degree 2 (3), and in detailed rows the fine ones (fine.h, 7).
 #ifndef SKV_CORE_CELLS_H
 #define SKV_CORE_CELLS_H
 
@@ -10,10 +9,9 @@
 
 #include "core/lanes.h"
 
-#define SKV_TABLE_MAGIC  0x534B5654u
-#define SKV_CELLS_MU_MIN -0.36f
-#define SKV_CELLS_KNEE   0.15f
-#define SKV_CELLS_SLOPE  0.6f
+#define SKV_TABLE_MAGIC 0x534B5654u
+#define SKV_CELLS_KNEE  0.15f
+#define SKV_CELLS_SLOPE 0.6f
 /// log2 of the least radiance that is kept; codes of 16 bits count from it in steps of 1/1024.
 #define SKV_CELLS_FLOOR -50.0f
 #define SKV_CELLS_STEPS 1024.0f
@@ -25,17 +23,16 @@ SKV_INLINE float skv_cells_warp(float mu_s) {
     return u / (SKV_CELLS_KNEE + skv_fabsf(u)) + SKV_CELLS_SLOPE * u;
 }
 
-/// Column coordinate of mu_s, [0, suns - 1].
-SKV_INLINE float skv_cells_column(float mu_s, int suns) {
-    const float first = skv_cells_warp(SKV_CELLS_MU_MIN), last = skv_cells_warp(1.0f);
-    const float x = (skv_cells_warp(mu_s) - first) * ((float)(suns - 1) / (last - first));
-    return skv_clampf(x, 0.0f, (float)(suns - 1));
+/// Column coordinate of mu_s, [0, suns - 1]; below the first column's the first one counts.
+SKV_INLINE float skv_cells_column(const skv_table *t, float mu_s) {
+    const float first = skv_cells_warp(t->mu_first), last = skv_cells_warp(1.0f), most = (float)(t->suns - 1);
+    return skv_clampf((skv_cells_warp(mu_s) - first) * (most / (last - first)), 0.0f, most);
 }
 
 /// mu_s of a column: the inverse.
-static inline float skv_cells_mu_s(int column, int suns) {
-    const float first = skv_cells_warp(SKV_CELLS_MU_MIN), last = skv_cells_warp(1.0f);
-    const float x = first + (last - first) * (float)column / (float)(suns - 1), a = skv_fabsf(x);
+static inline float skv_cells_mu_s(const skv_table *t, int column) {
+    const float first = skv_cells_warp(t->mu_first), last = skv_cells_warp(1.0f);
+    const float x = first + (last - first) * (float)column / (float)(t->suns - 1), a = skv_fabsf(x);
     const float half = 0.5f * (SKV_CELLS_SLOPE * SKV_CELLS_KNEE + 1.0f - a);
     const float u = a * SKV_CELLS_KNEE / (half + skv_sqrtf(half * half + SKV_CELLS_SLOPE * SKV_CELLS_KNEE * a));
     // Not the zenith itself: what is divided by the sine of the distance from it has its limit there.
@@ -164,7 +161,7 @@ SKV_INLINE int skv_cells_read(const skv_table *t, int bands, const skv_cells_pla
 
 /// log2 of the diffuse irradiance of the ground per unit of the light's, at mu_s.
 SKV_INLINE float skv_ground_log2(const skv_table *t, float mu_s, int b) {
-    const float y = skv_cells_column(mu_s, t->suns);
+    const float y = skv_cells_column(t, mu_s);
     int i = (int)y;
     i = i > t->suns - 2 ? t->suns - 2 : i;
     const float w = y - (float)i;

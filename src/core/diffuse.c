@@ -122,7 +122,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
             q.mu.v[l] = dir * m;
             q.q.v[l] = dir * (leg->nu.v[l] - m * ms);
             q.x.v[l] = skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f);
-            q.y.v[l] = skv_cells_column(ms, t->suns);
+            q.y.v[l] = skv_cells_column(t, ms);
         }
         SKV_EACH_LANE(l) q.x.v[l] = skv_sqrtf(q.x.v[l]) * rows;
         skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);

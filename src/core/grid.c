@@ -199,6 +199,8 @@ skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n) {
         return SKV_ERR_NULL;
     if (frame->layout != SKV_LAYOUT || !frame->model || frame->model->layout != SKV_LAYOUT || !frame->diffuse.table)
         return SKV_ERR_LAYOUT;
+    if (frame->height_km > 0.5f * frame->top_km)
+        return SKV_ERR_RANGE;
     if (n < skv_grid_size(frame) || (uintptr_t)grid % sizeof(float) != 0)
         return SKV_ERR_SIZE;
     frame->diffuse.grid = NULL;

@@ -49,8 +49,7 @@ static void skv_irradiance_read(const skv_frame *frame, int light, skv_irradianc
     const skv_table *const t = frame->diffuse.table;
     const float mu_s = frame->light[light].mu_s;
     const float x = skv_clampf((frame->height_km + frame->diffuse.offset_km) * frame->diffuse.inv_span, 0.0f, 1.0f);
-    const skv_cells_place p =
-        skv_cells_find(t, skv_sqrtf(x) * (float)(t->altitudes - 1), skv_cells_column(mu_s, t->suns));
+    const skv_cells_place p = skv_cells_find(t, skv_sqrtf(x) * (float)(t->altitudes - 1), skv_cells_column(t, mu_s));
     skv_cells_mean(t, skv_bands(frame->model), &p, cell->mean);
     for (int b = 0; b < skv_bands(frame->model); b++)
         cell->mean[b] = skv_exp2f(cell->mean[b]);
@@ -82,6 +81,8 @@ static void skv_irradiance_from_space(const skv_frame *frame, const float n[3], 
     const float r = frame->radius_km + frame->height_km, rt = frame->radius_km + frame->top_km;
     const float high = -skv_sqrtf((r - rt) * (r + rt)) / r;
     const int bands = skv_bands(frame->model);
+    skv_frame whole = *frame;
+    whole.quality.terms |= SKV_TERM_GROUND ? (uint32_t)SKV_WITH_GROUND : 0u;
     for (int i = 0; i < SKV_IRRADIANCE_POLAR; i++) {
         const int at = skv_gauss_offset(SKV_IRRADIANCE_POLAR) + i;
         const float t = skv_gauss_node[at], mu = high - (1.0f + high) * t * t;
@@ -96,7 +97,7 @@ static void skv_irradiance_from_space(const skv_frame *frame, const float n[3], 
         }
         const skv_rays rays = {v[0], 0, NULL, 0};
         const skv_sky sky = {radiance, 0, NULL, 0};
-        (void)skv_radiance(frame, SKV_IRRADIANCE_AZIMUTHS, &rays, &sky);
+        (void)skv_radiance(&whole, SKV_IRRADIANCE_AZIMUTHS, &rays, &sky);
         for (int k = 0; k < SKV_IRRADIANCE_AZIMUTHS; k++)
             for (int b = 0; b < bands; b++)
                 out[b] += weight * skv_maxf(skv_irradiance_dot(v[k], n), 0.0f) * radiance[k * bands + b];
@@ -110,6 +111,8 @@ static skv_status skv_irradiance_check(const skv_frame *frame, uint32_t parts, s
         return SKV_ERR_LAYOUT;
     if ((parts & ~(uint32_t)SKV_IRRADIANCE_ALL) != 0)
         return SKV_ERR_RANGE;
+    if ((parts & SKV_IRRADIANCE_DIRECT) != 0 && !SKV_OUT_TRANSMITTANCE)
+        return SKV_ERR_UNSUPPORTED;
     if ((parts & SKV_IRRADIANCE_DIFFUSE) != 0 && !frame->diffuse.table)
         return SKV_ERR_LAYOUT;
     const size_t wide = (size_t)skv_bands(frame->model) * sizeof(float);

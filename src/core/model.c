@@ -195,8 +195,13 @@ static void skv_tables(skv_model *m, const skv_profile *const profile[SKV_SPECIE
     (void)m;
 }
 
-/// Corners of a table: where its slope changes by a good part of its largest density within a step.
+/// Corners of a tent; of a table: where its slope changes by a good part of its largest density within a step.
 static void skv_breaks(skv_model *m, const skv_profile *p) {
+    for (int i = -1; i <= 1 && p->kind == SKV_PROFILE_TENT && m->breaks < SKV_MODEL_BREAKS; i++) {
+        const float corner = p->peak_km + (float)i * p->half_width_km;
+        if (corner > 0.0f && corner < m->top_km)
+            m->break_km[m->breaks++] = corner;
+    }
     if (p->kind != SKV_PROFILE_TABLE)
         return;
     const float *h = p->table_altitude_km, *d = p->table_density;

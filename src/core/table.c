@@ -85,6 +85,34 @@ static int32_t skv_table_orders(const skv_model *m) {
     return tau < 0.5f ? 4 : tau < 8.0f ? 4 + (int32_t)(4.0f * tau) : 40;
 }
 
+/// Rows up to where hardly anything scatters; columns down to a sun 11 degrees below the last one that the air sees (18
+/// degrees below the horizon on Earth).
+static void skv_table_axes(skv_table *t, const skv_model *m) {
+    float scale = 0.0f;
+    for (int s = 0; s < SKV_SCATTERERS; s++)
+        if (m->species[s].kind != SKV_PROFILE_NONE)
+            scale = skv_maxf(scale, m->species[s].scale_height_km);
+    const float radius = m->radius_km + t->ground_km, top = m->top_km - t->ground_km, inv = 1.0f / (radius + top);
+    t->span_km = scale > 0.0f ? skv_minf(top, 7.5f * scale) : top;
+    t->mu_first = -skv_minf(0.2f + 1.15f * skv_sqrtf(top * (2.0f * radius + top)) * inv, 0.95f);
+}
+
+static const skv_quality *skv_table_quality(skv_quality *q, int32_t samples) {
+    q->rule = SKV_GAUSS_EXP;
+    q->depth = SKV_DEPTH_CHAPMAN ? SKV_DEPTH_BY_CHAPMAN : SKV_DEPTH_BY_INNER;
+    q->samples = samples;
+    q->depth_samples = 16;
+    q->terms = SKV_WITH_ALL & ~(SKV_TERM_GROUND ? 0u : (uint32_t)SKV_WITH_GROUND);
+    return q;
+}
+
+/// Whether frames of this model can be made at all: what they refuse would leave the cells empty.
+static skv_status skv_table_frame_check(const skv_model *model, float ground_km) {
+    skv_frame frame;
+    skv_quality q;
+    return skv_frame_begin(&frame, model, skv_table_quality(&q, 6), ground_km, ground_km, NULL, 0);
+}
+
 skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, const skv_table_spec *spec,
                            skv_table *table, size_t table_bytes, void *work, size_t work_bytes) {
     skv_table_spec accurate;
@@ -97,6 +125,9 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
     if (skv_table_spec_check(s) != SKV_OK || !(s->ground_km < model->top_km) ||
         !(s->ground_km > -0.5f * model->radius_km))
         return SKV_ERR_RANGE;
+    const skv_status frames = skv_table_frame_check(model, s->ground_km);
+    if (frames != SKV_OK)
+        return frames;
     const int bands = skv_bands(model);
     if (table_bytes < skv_table_size(s, bands) || work_bytes < skv_table_work_size(s, bands) ||
         ((uintptr_t)table | (uintptr_t)work) % sizeof(float) != 0)
@@ -107,9 +138,7 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
     builder->table = table;
     builder->work = work;
     skv_table_header(builder->work, s, bands, SKV_TABLE_FLOAT);
-    // Above eight scale heights hardly anything scatters.
-    builder->work->span_km =
-        skv_minf(model->top_km - s->ground_km, 7.5f * skv_maxf(model->species[SKV_RAYLEIGH].scale_height_km, 1.0f));
+    skv_table_axes(builder->work, model);
     builder->work->model = model->hash;
     builder->first = (float *)(void *)((char *)work + builder->work->bytes);
     builder->pass = 1;
@@ -122,20 +151,15 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
 /// The frame of a cell, its light in the direction of azimuth 0 with irradiance 1.
 static void skv_table_cell_begin(skv_table_builder *b) {
     const skv_table *t = b->work;
-    const float mu_s = skv_cells_mu_s(b->column, t->suns);
+    const float mu_s = skv_cells_mu_s(t, b->column);
     const float observer_km = skv_minf(skv_cells_altitude(t, b->row), b->model->top_km);
-    skv_quality q = {SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, b->spec.samples[0], 16, SKV_WITH_ALL};
+    skv_quality q;
     skv_light light;
     memset(&light, 0, sizeof light);
     light.direction_enu[0] = skv_sqrtf(skv_maxf((1.0f - mu_s) * (1.0f + mu_s), 0.0f));
     light.direction_enu[2] = mu_s;
-#if !SKV_DEPTH_CHAPMAN
-    q.depth = SKV_DEPTH_BY_INNER;
-#endif
-#if !SKV_TERM_GROUND
-    q.terms &= ~(uint32_t)SKV_WITH_GROUND;
-#endif
-    (void)skv_frame_begin(&b->frame, b->model, &q, observer_km, b->spec.ground_km, &light, 1);
+    (void)skv_frame_begin(&b->frame, b->model, skv_table_quality(&q, b->spec.samples[0]), observer_km,
+                          b->spec.ground_km, &light, 1);
     for (int i = 0; i < SKV_BANDS_MAX; i++)
         b->frame.light[0].irradiance[i] = 1.0f;
     (void)skv_frame_table(&b->frame, t);
@@ -239,7 +263,7 @@ static void skv_table_cell_band(skv_table_builder *b, int band) {
     float *const mean = log + (suns + cell) * bands + i, *const ground = log + (size_t)b->column * bands + i;
     float *const ratio = log + (suns + skv_cells_count(t)) * bands + skv_cells_ratios(t, b->row, b->column) + i;
     const int terms = b->row < t->detailed ? SKV_TABLE_TERMS : 6, kept = b->frame.diffuse.kept;
-    const float mu_s = skv_cells_mu_s(b->column, t->suns);
+    const float mu_s = skv_cells_mu_s(t, b->column);
     const skv_frame_diffuse *const d = &b->frame.diffuse;
     float m[SKV_GATHER_MOMENTS];
     float now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];

@@ -67,7 +67,8 @@ void skv_table_seal(skv_table *table) {
 }
 
 static int skv_table_finite(const skv_table *t) {
-    int ok = t->ground_km >= -12.0f && t->ground_km <= 12.0f && t->span_km > 0.0f && t->span_km <= 1e4f;
+    int ok = t->ground_km >= -12.0f && t->ground_km <= 12.0f && t->span_km > 0.0f && t->span_km <= 1e4f &&
+             t->mu_first >= -0.95f && t->mu_first < 0.0f;
     for (int k = 0; k < SKV_TABLE_TERMS - 1; k++)
         ok = ok && t->ratio_scale[k] > 0.0f && t->ratio_scale[k] <= 1.0f;
     if (t->format == SKV_TABLE_PACKED || !ok)
