@@ -19,8 +19,10 @@ typedef struct surroundings {
     skv_night night;
     bool has_water;
     skv_water water;
-    skv_frame at_sea;                     ///< on the water, the same lights
-    float through_air[SKV_LIGHTS_MAX][4]; ///< from the water toward each light
+    skv_light light[SKV_LIGHTS_MAX];
+    skv_frame at_sea; ///< on the water below, the same lights
+    bool far;         ///< the water is seen so far off that lights stand elsewhere there: a frame for each ray
+    float through_air[SKV_LIGHTS_MAX][4]; ///< from the water below toward each light
     // Scratch of a batch: rays that meet the water.
     skv_water_hit hit[AROUND_BATCH];
     float toward[AROUND_BATCH][3];
@@ -36,5 +38,9 @@ skv_status around_set_water(surroundings *out, const skv_frame *frame, const skv
 /// Adds everything to what skv_radiance() found for n <= AROUND_BATCH rays, packed, with transmittance.
 skv_status around_add(surroundings *around, const skv_frame *frame, size_t n, const float *direction_enu,
                       const skv_sky *sky);
+
+/// The water's part of it (around_sea.c).
+skv_status around_add_sea(surroundings *around, const skv_frame *frame, size_t n, const skv_rays *rays,
+                          const skv_sky *sky);
 
 #endif

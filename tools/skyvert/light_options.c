@@ -15,7 +15,7 @@ const char light_options_help[] =
     "  --orders all|single    orders of scattering: all (default), by a table that is built first, or one\n"
     "  --table accurate|small which table (default accurate)\n"
     "  --grid auto|on|off     light scattered more than once by a grid per picture, or ray by ray; auto\n"
-    "                         (default): by a grid from 2000 rays on, up to 30 km\n"
+    "                         (default): by a grid from 2000 rays on, but not from above the air\n"
     "  --discs on|off         the discs of sun and moon (default on; of a dome: off)\n"
     "  --moon auto|on|off     the moon, as a disc and, when the sun is down, as a light; auto (default): on\n"
     "                         Earth where position and time, or --moon-zenith-deg, say where it stands\n"

@@ -149,7 +149,8 @@ int moment_find_lights(moment *now, const char *command) {
     now->sun_azimuth_deg = (double)sun.azimuth_deg;
     now->sun_elevation_deg = (double)sun.elevation_deg;
     now->sun_distance_au = (double)sun.distance_au;
-    now->has_moon = skv_moon_at(&now->moon, &utc, &position) == SKV_OK; // not from inside it
+    now->has_moon = skv_moon_at(&now->moon, &utc, &position) == SKV_OK && // not from beside it
+                    now->moon.distance_km > 3000.0f && now->moon.distance_km < 1e7f;
     if (now->has_moon)
         now->moon_side = skv_moon_side(now->moon.direction_enu, now->sun_enu, position.lat_deg);
     return 0;

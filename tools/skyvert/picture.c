@@ -121,7 +121,7 @@ void picture_free(picture *image) {
 // ---- exposure
 
 /// How much of a picture has which luminance: steps of 1/16 of a power of two from 2^-64 to 2^64.
-enum { STEPS = 16, STOPS = 128 };
+enum { STEPS = 16, LOWEST = -64, STOPS = 128 };
 typedef struct histogram {
     double weight[STEPS * STOPS];
     double all;
@@ -130,7 +130,7 @@ typedef struct histogram {
 static void histogram_add(histogram *h, double luminance, double weight) {
     if (!(luminance > 0.0 && weight > 0.0))
         return;
-    const double step = (log2(luminance) + STOPS / 2) * STEPS;
+    const double step = (log2(luminance) - LOWEST) * STEPS;
     h->weight[step < 0.0 ? 0 : step < STEPS * STOPS ? (int)step : STEPS * STOPS - 1] += weight;
     h->all += weight;
 }
@@ -153,16 +153,19 @@ static double log_mean(const histogram *h) {
         sum += h->weight[i] * ((i < top ? i : top) + 0.5);
         weight += h->weight[i];
     }
-    return weight > 0.0 ? exp2(sum / weight / STEPS - STOPS / 2) : 0.0;
+    return weight > 0.0 ? exp2(sum / weight / STEPS + LOWEST) : 0.0;
 }
 
-/// k with 1 - exp(-k L) = EXPOSURE_KEY at the brightness of sky and ground; 1 where all is black.
+/// k with 1 - exp(-k L) = EXPOSURE_KEY at the brightness of sky and ground, each weighed by its light; 1 where all is
+/// black.
 static double exposure_of(const histogram part[2]) {
-    double square = 0.0;
-    for (int i = 0; i < 2; i++)
-        if (part[i].all > 0.0)
-            square += part[i].all / (part[0].all + part[1].all) * pow(log_mean(&part[i]), 2.0);
-    return square > 0.0 ? -log(1.0 - EXPOSURE_KEY) / sqrt(square) : 1.0;
+    double sum = 0.0, light = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double mean = log_mean(&part[i]);
+        light += part[i].all * mean;
+        sum += part[i].all * mean * mean;
+    }
+    return sum > 0.0 ? -log(1.0 - EXPOSURE_KEY) * light / sum : 1.0;
 }
 
 double colours_auto_exposure(const float *rgb, size_t n, size_t channels, const float *weight) {

@@ -71,7 +71,7 @@ int picture_render(picture *image, const picture_options *options, scene *view, 
 void picture_free(picture *image);
 
 /// Exposure k for 1 - exp(-k L): brings the picture's brightness to `EXPOSURE_KEY` of white. That is the average of log
-/// luminance (over solid angle) of what lies above the horizon and of what lies below it, joined by a root mean square:
+/// luminance (over solid angle) of what lies above the horizon and of what lies below it, each weighed by its light:
 /// the brighter of the two counts most. Discs, the brightest hundredth, and what is under 1/1000 of the rest are left
 /// out.
 double picture_auto_exposure(const picture *image);

@@ -12,16 +12,17 @@
 #include "port/geographiclib/skv_geo.h"
 #endif
 
-/// Rays from which on a grid is cheaper, and the height up to which it follows the sky: the limb seen from above bends
-/// within less than a step of it.
-#define GRID_PAYS   2000
-#define GRID_TOP_KM 30.0
+/// Rays from which on a grid is cheaper.
+#define GRID_PAYS 2000
 /// The moon lights the sky where the sun is lower below the horizon than this: until then it adds less than 1/1000.
 #define MOONLIGHT_DEG 3.0
 
 static bool is_earth_preset(const sky_options *options) {
-    return !options->atmosphere_path &&
-           (options->preset == SKV_PRESET_EARTH_CLEAR || options->preset == SKV_PRESET_EARTH_HAZY);
+    static const skv_preset others[] = {SKV_PRESET_MARS, SKV_PRESET_TINY, SKV_PRESET_GIANT, SKV_PRESET_TITAN};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (options->preset == others[i])
+            return false;
+    return !options->atmosphere_path;
 }
 
 /// An air of the user's own counts as the Earth's where the moment is one of the Earth.
@@ -66,6 +67,20 @@ static bool wanted(int asked, bool known) {
     return asked == CHOICE_ON || (asked == CHOICE_AUTO && known);
 }
 
+/// How far the sun is: on another planet's preset as far as its irradiance says.
+static double distance_of_sun(const scene *view, const moment *now) {
+    const sky_options *const options = view->options;
+    skv_atmosphere earth;
+    if (is_earth(options) || skv_atmosphere_preset(&earth, SKV_PRESET_EARTH_CLEAR, options->bands) != SKV_OK)
+        return now->sun_distance_au;
+    double here = 0.0, there = 0.0;
+    for (int b = 0; b < options->bands; b++) {
+        here += (double)options->atmosphere.solar_irradiance[b];
+        there += (double)earth.solar_irradiance[b];
+    }
+    return here > 0.0 ? sqrt(there / here) : now->sun_distance_au;
+}
+
 /// The sun, and its disc where that is drawn.
 static skv_status add_sun(scene *view, const moment *now, const scene_plan *plan) {
     skv_light *const sun = &view->light[0];
@@ -76,7 +91,7 @@ static skv_status add_sun(scene *view, const moment *now, const scene_plan *plan
     view->lights = 1;
     if (status != SKV_OK || view->options->light.discs == CHOICE_OFF)
         return status;
-    status = skv_disc_sun(&view->around.disc[view->around.discs], &view->model, sun, (float)now->sun_distance_au,
+    status = skv_disc_sun(&view->around.disc[view->around.discs], &view->model, sun, (float)distance_of_sun(view, now),
                           plan->sample_rad);
     view->around.discs += status == SKV_OK;
     return status;
@@ -137,13 +152,16 @@ static skv_status add_grid(scene *view, skv_frame *frame, float **grid) {
 
 static int set_grids(scene *view, const scene_plan *plan) {
     const light_options *const light = &view->options->light;
-    if (light->orders == 0 || !wanted(light->grid, plan->rays >= GRID_PAYS && view->observer_km <= GRID_TOP_KM))
+    if (light->orders == 0 || !wanted(light->grid, plan->rays >= GRID_PAYS))
         return 0;
     skv_status status = add_grid(view, &view->frame, &view->grid[0]);
-    if (status == SKV_OK && view->around.has_water)
+    if (status == SKV_OK && view->around.has_water && !view->around.far)
         status = add_grid(view, &view->around.at_sea, &view->grid[1]);
-    if (status == SKV_OK || (light->grid == CHOICE_AUTO && status == SKV_ERR_UNSUPPORTED))
+    // From too high up, or left out at compile time: ray by ray.
+    if (status == SKV_OK || (light->grid == CHOICE_AUTO && (status == SKV_ERR_RANGE || status == SKV_ERR_UNSUPPORTED)))
         return 0;
+    if (status == SKV_ERR_RANGE)
+        return fail_usage("skyvert %s: --grid on: not from so high up; use auto or off", view->options->command);
     return fail_job("skyvert %s: --grid: no memory, or this build of the core lacks it (status %d)",
                     view->options->command, (int)status);
 }
