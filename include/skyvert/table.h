@@ -87,8 +87,8 @@ typedef struct skv_table_builder {
     const skv_model *model;
     skv_table *table; ///< the result; written at the end, cell by cell
     skv_table *work;  ///< the table so far, in floats
-    float *first;     ///< [cells][bands][9] light scattered once; [suns][bands] its irradiance of the ground
-    int32_t pass;     ///< 1 ... orders gather; then packing; then checking; then done
+    float *first;     ///< [cells][bands][terms] light scattered once; [suns][bands] its irradiance of the ground
+    int32_t pass;     ///< 1 ... orders gather; then come tail, packing and checksum
     int32_t row, column, ray;
     skv_frame frame;                 ///< of the cell in work
     float moment[7][SKV_BANDS_MAX];  ///< its gathered moments

@@ -97,6 +97,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
     const skv_table *const t = frame->diffuse.table;
     const float rows = (float)(t->altitudes - 1), inv_span = frame->diffuse.inv_span, offset = frame->diffuse.offset_km;
+    (void)bands;
     skv_points p;
     skv_lanes e0, rm, rms, l_km, k, whole;
     skv_diffuse_samples q;

@@ -67,7 +67,7 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
         for (size_t b = 0; b < bands && !frame->diffuse.only; b++)
             out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] * (rms.v[l] / radius) *
                       skv_exp2f(-skv_optical_depth_log2e(frame, has, &c, (int)b, l));
-        if (frame->diffuse.table)
+        if (SKV_TERM_DIFFUSE && frame->diffuse.table)
             for (size_t b = 0; b < bands; b++)
                 out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] *
                           skv_exp2f(skv_ground_log2(frame->diffuse.table, mu_s.v[l], (int)b) -
@@ -80,7 +80,7 @@ int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_s
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
-    const int grid = frame->diffuse.grid && !rays->length_km;
+    const int grid = SKV_TERM_DIFFUSE && frame->diffuse.grid && !rays->length_km;
     if (!ground && !grid && !sky->transmittance && frame->lights > 0)
         return 0;
     for (size_t first = 0; first < n; first += SKV_LANES) {
@@ -89,8 +89,10 @@ int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_s
         skv_block_load(frame, n, first, rays, &block);
         bad |= block.bad;
         skv_block_columns(frame, has, &block, k);
+#if SKV_TERM_DIFFUSE
         for (int light = 0; grid && light < frame->lights; light++)
             skv_grid_add(frame, light, first, &block, k, sky);
+#endif
         if (!ground && !sky->transmittance)
             continue;
         skv_end_columns(frame, has, &block, k, &view);

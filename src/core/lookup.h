@@ -14,7 +14,7 @@ SKV_INLINE const skv_column_table *skv_column_table_of(const skv_model *model, i
         return &model->ozone_column;
 #endif
 #if SKV_PROFILE_TABULATED
-    return &model->column[species];
+    return &model->column[species < 2 + SKV_TERM_DUST ? species : 0];
 #else
     (void)model;
     return NULL;

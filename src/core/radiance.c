@@ -197,9 +197,11 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
             bad |= skv_rule_midpoint(frame, light, n, rays, sky);
 #endif
     }
+#if SKV_TERM_DIFFUSE
     const int direct = frame->diffuse.table && (!frame->diffuse.grid || rays->length_km);
     for (int light = 0; light < frame->lights && direct; light++)
         skv_diffuse_add(frame, light, n, rays, sky);
+#endif
     bad |= skv_ends(frame, n, rays, sky);
     return bad ? SKV_ERR_DIRECTION : SKV_OK;
 }

@@ -218,27 +218,25 @@ static void skv_table_gather(skv_table_builder *b, int count) {
     b->ray += count;
 }
 
-/// The numbers of a cell after a pass: light scattered once and what was gathered of the table so far. The last pass
-/// adds the rest as a geometric series, whose rate is that of the whole table: single cells may still be gaining.
-/// @return weight of that rest.
-static float skv_table_cell_update(skv_table_builder *b, int band, float now[SKV_TABLE_TERMS], const float old[],
-                                   float first[]) {
-    const int terms = b->row < b->work->detailed ? SKV_TABLE_TERMS : 6;
-    for (int k = 0; k < terms && b->pass == 1; k++)
-        first[k] = now[k];
-    for (int k = 0; k < terms && b->pass > 1; k++)
-        now[k] += first[k];
+/// The numbers of a cell after a pass: light scattered once and what was gathered of the table so far. What the last
+/// pass changed is kept in the place of the first, which is not needed any more: the rest is a geometric series of it.
+static void skv_table_cell_update(skv_table_builder *b, int band, float now[SKV_TABLE_TERMS], const float old[],
+                                  float first[]) {
+    const int terms = b->row < b->work->detailed ? SKV_TABLE_TERMS : 6, last = b->pass == b->spec.orders;
+    for (int k = 0; k < terms; k++) {
+        if (b->pass == 1)
+            first[k] = now[k];
+        else
+            now[k] += first[k];
+        first[k] = last ? now[k] - old[k] : first[k];
+    }
     b->change[band] += skv_fabsf(now[0] - old[0]);
-    const float more = b->pass == b->spec.orders ? b->rate[band] / (1.0f - b->rate[band]) : 0.0f;
-    for (int k = 0; k < terms; k++)
-        now[k] += more * (now[k] - old[k]);
-    return more;
 }
 
 /// The rate at which passes change less and less, once there are two to compare.
 static void skv_table_pass_end(skv_table_builder *b) {
     for (int band = 0; band < SKV_BANDS_MAX; band++) {
-        const float rate = b->pass > 2 && b->before[band] > 0.0f ? b->change[band] / b->before[band] : 0.0f;
+        const float rate = b->pass > 1 && b->before[band] > 0.0f ? b->change[band] / b->before[band] : 0.0f;
         b->rate[band] = skv_clampf(rate, 0.0f, 0.9f);
         b->before[band] = b->change[band];
         b->change[band] = 0.0f;
@@ -256,42 +254,81 @@ static float skv_table_log2(float x) {
 static const float skv_table_bound[SKV_TABLE_TERMS - 1] = {3.0f,  6.0f,  5.0f,  10.0f, 8.0f,  40.0f,
                                                            40.0f, 40.0f, 40.0f, 40.0f, 40.0f, 40.0f};
 
+/// A cell of the work table: numbers to logarithm and ratios, and back.
+typedef struct skv_table_cell {
+    float *mean, *ratio, *ground, *first, *once;
+    int terms;
+} skv_table_cell;
+
+static skv_table_cell skv_table_cell_at(const skv_table_builder *b, int column, int band) {
+    const skv_table *const t = b->work;
+    float *const log = (float *)(void *)(b->work + 1);
+    const size_t bands = t->bands, suns = t->suns, cell = (size_t)b->row * suns + (size_t)column, i = (size_t)band;
+    const skv_table_cell at = {log + (suns + cell) * bands + i,
+                               log + (suns + skv_cells_count(t)) * bands + skv_cells_ratios(t, b->row, column) + i,
+                               log + (size_t)column * bands + i,
+                               b->first + (cell * bands + i) * SKV_TABLE_TERMS,
+                               b->first + (skv_cells_count(t) * SKV_TABLE_TERMS + (size_t)column) * bands + i,
+                               b->row < t->detailed ? SKV_TABLE_TERMS : 6};
+    return at;
+}
+
+static void skv_table_cell_get(const skv_table_cell *at, int bands, float out[SKV_TABLE_TERMS]) {
+    out[0] = skv_exp2f(*at->mean);
+    for (int k = 1; k < at->terms; k++)
+        out[k] = at->ratio[(k - 1) * bands] * out[0];
+}
+
+static void skv_table_cell_put(const skv_table_cell *at, int bands, const float now[SKV_TABLE_TERMS]) {
+    const float inv = 1.0f / skv_maxf(now[0], SKV_CELLS_LEAST);
+    *at->mean = skv_table_log2(now[0]);
+    for (int k = 1; k < at->terms; k++)
+        at->ratio[(k - 1) * bands] = skv_clampf(now[k] * inv, -skv_table_bound[k - 1], skv_table_bound[k - 1]);
+}
+
 static void skv_table_cell_band(skv_table_builder *b, int band) {
-    skv_table *const t = b->work;
-    float *const log = (float *)(void *)(t + 1);
-    const size_t bands = t->bands, suns = t->suns, cell = (size_t)b->row * suns + (size_t)b->column, i = (size_t)band;
-    float *const mean = log + (suns + cell) * bands + i, *const ground = log + (size_t)b->column * bands + i;
-    float *const ratio = log + (suns + skv_cells_count(t)) * bands + skv_cells_ratios(t, b->row, b->column) + i;
-    const int terms = b->row < t->detailed ? SKV_TABLE_TERMS : 6, kept = b->frame.diffuse.kept;
-    const float mu_s = skv_cells_mu_s(t, b->column);
+    const int bands = b->work->bands, kept = b->frame.diffuse.kept, last = b->pass == b->spec.orders;
     const skv_frame_diffuse *const d = &b->frame.diffuse;
-    float m[SKV_GATHER_MOMENTS];
-    float now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS];
+    const skv_table_cell at = skv_table_cell_at(b, b->column, band);
+    const float mu_s = skv_cells_mu_s(b->work, b->column);
+    float m[SKV_GATHER_MOMENTS], now[SKV_TABLE_TERMS], old[SKV_TABLE_TERMS] = {0.0f};
     for (int k = 0; k < SKV_GATHER_MOMENTS; k++)
         m[k] = b->moment[k][band];
     skv_gather_low(m, mu_s, now);
-    if (terms > 6)
+    if (at.terms > 6)
         skv_fine_fit(b->source[band], now, d->moment[kept], d->aureole[kept], d->toward_enu[0], mu_s, now + 6);
-    old[0] = b->pass > 1 ? skv_exp2f(*mean) : 0.0f;
-    for (int k = 1; k < terms; k++)
-        old[k] = b->pass > 1 ? ratio[(size_t)(k - 1) * bands] * old[0] : 0.0f;
-    const float more = skv_table_cell_update(b, band, now, old, b->first + (cell * bands + i) * SKV_TABLE_TERMS);
-    if (b->row == 0) {
-        float *const once = b->first + (skv_cells_count(t) * SKV_TABLE_TERMS + (size_t)b->column) * bands + i;
-        float sum = m[SKV_GATHER_DOWN];
-        if (b->pass == 1)
-            *once = sum;
-        else
-            sum += *once;
-        *ground = skv_table_log2(sum + more * (sum - skv_exp2f(*ground)));
-    }
-    *mean = skv_table_log2(now[0]);
-    for (int k = 0; k < terms - 1; k++) {
-        const float x = now[k + 1] / skv_maxf(now[0], SKV_CELLS_LEAST), bound = skv_table_bound[k];
-        ratio[(size_t)k * bands] = skv_clampf(x, -bound, bound);
-        if (b->pass == b->spec.orders)
-            b->largest[k] = skv_maxf(b->largest[k], skv_fabsf(ratio[(size_t)k * bands]));
-    }
+    if (b->pass > 1)
+        skv_table_cell_get(&at, bands, old);
+    skv_table_cell_update(b, band, now, old, at.first);
+    skv_table_cell_put(&at, bands, now);
+    if (b->row > 0)
+        return;
+    float sum = m[SKV_GATHER_DOWN];
+    if (b->pass == 1)
+        *at.once = sum;
+    else
+        sum += *at.once;
+    *at.once = last ? sum - skv_exp2f(*at.ground) : *at.once;
+    *at.ground = skv_table_log2(sum);
+}
+
+/// After the last pass: the rest of the series, row by row, and how large the ratios become.
+static void skv_table_tail(skv_table_builder *b) {
+    const int bands = b->work->bands;
+    for (int column = 0; column < b->work->suns; column++)
+        for (int band = 0; band < bands; band++) {
+            const skv_table_cell at = skv_table_cell_at(b, column, band);
+            const float more = b->rate[band] / (1.0f - b->rate[band]);
+            float now[SKV_TABLE_TERMS];
+            skv_table_cell_get(&at, bands, now);
+            for (int k = 0; k < at.terms; k++)
+                now[k] += more * at.first[k];
+            skv_table_cell_put(&at, bands, now);
+            for (int k = 0; k < at.terms - 1; k++)
+                b->largest[k] = skv_maxf(b->largest[k], skv_fabsf(at.ratio[k * bands]));
+            if (b->row == 0)
+                *at.ground = skv_table_log2(skv_exp2f(*at.ground) + more * *at.once);
+        }
 }
 
 /// On to the next cell; a pass ends with the last one.
@@ -331,10 +368,16 @@ skv_status skv_table_step(skv_table_builder *builder, int *permille) {
         return SKV_ERR_NULL;
     if (builder->layout != SKV_LAYOUT)
         return SKV_ERR_LAYOUT;
-    const int32_t pack = builder->spec.orders + 1;
-    if (builder->pass < pack)
+    const int32_t tail = builder->spec.orders + 1, pack = tail + 1;
+    if (builder->pass < tail)
         skv_table_work(builder);
-    else if (builder->pass == pack) {
+    else if (builder->pass == tail) {
+        skv_table_tail(builder);
+        if (++builder->row == builder->work->altitudes) {
+            builder->row = 0;
+            builder->pass++;
+        }
+    } else if (builder->pass == pack) {
         skv_table_pack_row(builder->work, builder->table, builder->row, builder->largest, builder->spec.format);
         if (++builder->row == builder->work->altitudes)
             builder->pass++;
@@ -343,7 +386,7 @@ skv_status skv_table_step(skv_table_builder *builder, int *permille) {
         builder->pass++;
     }
     if (permille)
-        *permille = builder->pass < pack ? skv_table_permille(builder) : builder->pass < pack + 2 ? 999 : 1000;
+        *permille = builder->pass < tail ? skv_table_permille(builder) : builder->pass < pack + 2 ? 999 : 1000;
     return SKV_OK;
 }
 
@@ -375,6 +418,27 @@ size_t skv_table_work_size(const skv_table_spec *spec, int bands) {
     (void)spec;
     (void)bands;
     return 0;
+}
+
+skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, const skv_table_spec *spec,
+                           skv_table *table, size_t table_bytes, void *work, size_t work_bytes) {
+    (void)spec;
+    (void)table_bytes;
+    (void)work_bytes;
+    return builder && model && table && work ? SKV_ERR_UNSUPPORTED : SKV_ERR_NULL;
+}
+
+skv_status skv_table_step(skv_table_builder *builder, int *permille) {
+    (void)permille;
+    return builder ? SKV_ERR_UNSUPPORTED : SKV_ERR_NULL;
+}
+
+skv_status skv_table_build(skv_table *table, size_t table_bytes, void *work, size_t work_bytes, const skv_model *model,
+                           const skv_table_spec *spec) {
+    (void)spec;
+    (void)table_bytes;
+    (void)work_bytes;
+    return table && work && model ? SKV_ERR_UNSUPPORTED : SKV_ERR_NULL;
 }
 
 #endif

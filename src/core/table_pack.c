@@ -98,4 +98,12 @@ skv_status skv_table_check(const void *bytes, size_t n, const skv_model *model) 
     return model && (model->hash != t->model || skv_bands(model) != t->bands) ? SKV_ERR_MODEL : SKV_OK;
 }
 
+#else
+
+skv_status skv_table_check(const void *bytes, size_t n, const skv_model *model) {
+    (void)n;
+    (void)model;
+    return bytes ? SKV_ERR_UNSUPPORTED : SKV_ERR_NULL;
+}
+
 #endif
