@@ -104,6 +104,11 @@ typedef struct skv_table_builder {
 /// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_UNSUPPORTED iff there is no such kind.
 skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind);
 
+/// The same, fitted to a model: its fine numbers reach as far up as the forward-scattering matter does (Mars' dust
+/// stands ten times as high as Earth's haze), with fewer columns where the table would become larger than the kind's.
+/// @return as skv_table_spec_kind(); SKV_ERR_LAYOUT iff the model was not built.
+skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_table_kind kind);
+
 /// Bytes of a table; 0 where a field of spec is out of range or bands is not 3 or 4.
 size_t skv_table_size(const skv_table_spec *spec, int bands);
 
@@ -113,7 +118,7 @@ size_t skv_table_work_size(const skv_table_spec *spec, int bands);
 /// Begins a build, or begins it anew: another model, other settings, other buffers.
 /// @param[out] builder
 /// @param[in]  model        kept by reference until the build is done.
-/// @param[in]  spec         NULL: the accurate kind.
+/// @param[in]  spec         NULL: the accurate kind, fitted to the model: 8192 bytes are enough for it.
 /// @param[out] table        of table_bytes bytes, aligned to 4. It is not complete before skv_table_step() says so:
 /// keep
 ///                          the one that frames use until then.

@@ -1,6 +1,6 @@
 /// The cells of a diffuse-light table: where they lie, and what stands between them.
 ///
-/// Axes: altitude by its square root, sun by u/(.15+|u|) + .6 u, u = mu_s + .05. A cell has per band log2 of the mean
+/// Axes: altitude by its square root, sun by u/(.09+|u|) + .6 u, u = mu_s + .07. A cell has per band log2 of the mean
 /// radiance c0 and ratios to it: degree 1 (2), degree 2 (3), and in detailed rows the fine ones (fine.h, 7).
 #ifndef SKV_CORE_CELLS_H
 #define SKV_CORE_CELLS_H
@@ -9,9 +9,10 @@
 
 #include "core/lanes.h"
 
-#define SKV_TABLE_MAGIC 0x534B5654u
-#define SKV_CELLS_KNEE  0.15f
-#define SKV_CELLS_SLOPE 0.6f
+#define SKV_TABLE_MAGIC  0x534B5654u
+#define SKV_CELLS_CENTRE 0.07f
+#define SKV_CELLS_KNEE   0.09f
+#define SKV_CELLS_SLOPE  0.6f
 /// log2 of the least radiance that is kept; codes of 16 bits count from it in steps of 1/1024.
 #define SKV_CELLS_FLOOR -50.0f
 #define SKV_CELLS_STEPS 1024.0f
@@ -19,7 +20,7 @@
 
 /// Columns crowd where the sun is near the horizon.
 SKV_INLINE float skv_cells_warp(float mu_s) {
-    const float u = mu_s + 0.05f;
+    const float u = mu_s + SKV_CELLS_CENTRE;
     return u / (SKV_CELLS_KNEE + skv_fabsf(u)) + SKV_CELLS_SLOPE * u;
 }
 
@@ -36,7 +37,7 @@ static inline float skv_cells_mu_s(const skv_table *t, int column) {
     const float half = 0.5f * (SKV_CELLS_SLOPE * SKV_CELLS_KNEE + 1.0f - a);
     const float u = a * SKV_CELLS_KNEE / (half + skv_sqrtf(half * half + SKV_CELLS_SLOPE * SKV_CELLS_KNEE * a));
     // Not the zenith itself: what is divided by the sine of the distance from it has its limit there.
-    return skv_clampf(skv_copysignf(u, x) - 0.05f, -1.0f, 0.998f);
+    return skv_clampf(skv_copysignf(u, x) - SKV_CELLS_CENTRE, -1.0f, 0.998f);
 }
 
 static inline float skv_cells_altitude(const skv_table *t, int row) {

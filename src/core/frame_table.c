@@ -5,20 +5,6 @@
 
 #if SKV_TERM_DIFFUSE
 
-/// The species whose aureole a table keeps: of those that scatter forward the one that scatters most.
-static int skv_kept_species(const skv_model *m) {
-    int kept = SKV_AEROSOL;
-    float most = 0.0f;
-    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
-        float sum = 0.0f;
-        for (int b = 0; b < skv_bands(m); b++)
-            sum += m->scattering_per_km[s][b] * m->species[s].scale_height_km * skv_fabsf(m->g[s]);
-        kept = m->species[s].kind != SKV_PROFILE_NONE && sum > most ? s : kept;
-        most = skv_maxf(most, sum);
-    }
-    return kept;
-}
-
 static void skv_diffuse_moments(const skv_model *m, skv_frame_diffuse *d) {
     for (int l = 1; l <= 4; l++) {
         d->moment[SKV_RAYLEIGH][l - 1] = l == 2 ? 0.1f : 0.0f;

@@ -32,4 +32,18 @@ SKV_INLINE float skv_aureole(float g, float near) {
     return 0.0795774715f * (whole - (1.0f + 3.0f * g * nu + 2.5f * g * g * (3.0f * nu * nu - 1.0f)));
 }
 
+/// The species whose aureole a table keeps: of those that scatter forward the one that scatters most.
+static inline int skv_kept_species(const skv_model *m) {
+    int kept = SKV_AEROSOL;
+    float most = 0.0f;
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        float sum = 0.0f;
+        for (int b = 0; b < skv_bands(m); b++)
+            sum += m->scattering_per_km[s][b] * m->species[s].scale_height_km * skv_fabsf(m->g[s]);
+        kept = m->species[s].kind != SKV_PROFILE_NONE && sum > most ? s : kept;
+        most = skv_maxf(most, sum);
+    }
+    return kept;
+}
+
 #endif

@@ -97,6 +97,35 @@ static void skv_table_axes(skv_table *t, const skv_model *m) {
     t->mu_first = -skv_minf(0.2f + 1.15f * skv_sqrtf(top * (2.0f * radius + top)) * inv, 0.95f);
 }
 
+/// Bytes that a kind may take in four bands.
+static const size_t skv_table_most[SKV_TABLE_KINDS] = {8192, 4800};
+
+skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_table_kind kind) {
+    if (!spec || !model)
+        return SKV_ERR_NULL;
+    if (model->layout != SKV_LAYOUT)
+        return SKV_ERR_LAYOUT;
+    skv_table_spec s;
+    const skv_status status = skv_table_spec_kind(&s, kind);
+    if (status != SKV_OK)
+        return status;
+    skv_table t;
+    skv_table_header(&t, &s, skv_bands(model), SKV_TABLE_FLOAT);
+    skv_table_axes(&t, model);
+    // Fine numbers as far up as there is forward-scattering matter: three and a half of its scale heights.
+    const float high = 3.5f * model->species[skv_kept_species(model)].scale_height_km;
+    while (s.detailed < s.altitudes && skv_cells_altitude(&t, s.detailed) - t.ground_km < high)
+        s.detailed++;
+    if (s.detailed > s.altitudes - 2 && s.altitudes > 8) {
+        s.altitudes = 8;
+        s.detailed = 8;
+    }
+    while (s.suns > 8 && skv_table_size(&s, 4) > skv_table_most[kind])
+        s.suns--;
+    *spec = s;
+    return SKV_OK;
+}
+
 static const skv_quality *skv_table_quality(skv_quality *q, int32_t samples) {
     q->rule = SKV_GAUSS_EXP;
     q->depth = SKV_DEPTH_CHAPMAN ? SKV_DEPTH_BY_CHAPMAN : SKV_DEPTH_BY_INNER;
@@ -120,7 +149,7 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
         return SKV_ERR_NULL;
     if (model->layout != SKV_LAYOUT)
         return SKV_ERR_LAYOUT;
-    (void)skv_table_spec_kind(&accurate, SKV_TABLE_ACCURATE);
+    (void)skv_table_spec_for(&accurate, model, SKV_TABLE_ACCURATE);
     const skv_table_spec *const s = spec ? spec : &accurate;
     if (skv_table_spec_check(s) != SKV_OK || !(s->ground_km < model->top_km) ||
         !(s->ground_km > -0.5f * model->radius_km))
@@ -343,16 +372,18 @@ static void skv_table_next(skv_table_builder *b) {
     skv_table_pass_end(b);
 }
 
+/// A step: some rays of a cell, or, once all are gathered, the numbers of one of its bands.
 static void skv_table_work(skv_table_builder *b) {
+    const int rays = skv_table_rays(b), left = rays - b->ray;
     if (b->ray == 0)
         skv_table_cell_begin(b);
-    const int left = skv_table_rays(b) - b->ray;
-    skv_table_gather(b, left < SKV_TABLE_STEP_RAYS ? left : SKV_TABLE_STEP_RAYS);
-    if (b->ray < skv_table_rays(b))
+    if (left > 0) {
+        skv_table_gather(b, left < SKV_TABLE_STEP_RAYS ? left : SKV_TABLE_STEP_RAYS);
         return;
-    for (int band = 0; band < skv_bands(b->model); band++)
-        skv_table_cell_band(b, band);
-    skv_table_next(b);
+    }
+    skv_table_cell_band(b, b->ray - rays);
+    if (++b->ray - rays == skv_bands(b->model))
+        skv_table_next(b);
 }
 
 static int skv_table_permille(const skv_table_builder *b) {
@@ -406,6 +437,11 @@ skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
     (void)spec;
     (void)kind;
     return SKV_ERR_UNSUPPORTED;
+}
+
+skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_table_kind kind) {
+    (void)kind;
+    return spec && model ? SKV_ERR_UNSUPPORTED : SKV_ERR_NULL;
 }
 
 size_t skv_table_size(const skv_table_spec *spec, int bands) {
