@@ -149,7 +149,34 @@ static void point_to(exr_encode_pipeline_t *encoder, const float *lines, const s
     }
 }
 
-static exr_result_t encode_chunk(exr_context_t context, int part, exr_encode_pipeline_t *encoder,
+/// The library's own compression of a chunk.
+typedef struct compression {
+    exr_result_t (*run)(exr_encode_pipeline_t *encoder);
+} compression;
+
+/// OpenEXRCore 3.1 stores the pixels themselves where ZIP makes them longer, but not where it leaves them as long as
+/// they are; readers take such a chunk for pixels.
+static exr_result_t compress(exr_encode_pipeline_t *encoder) {
+    const compression *const library = encoder->encoding_user_data;
+    const exr_result_t rv = library->run(encoder);
+    if (rv == EXR_ERR_SUCCESS && encoder->compressed_bytes == encoder->packed_bytes &&
+        encoder->compressed_buffer != encoder->packed_buffer)
+        memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
+    return rv;
+}
+
+static exr_result_t choose_routines(exr_context_t context, int part, exr_encode_pipeline_t *encoder,
+                                    compression *library) {
+    const exr_result_t rv = exr_encoding_choose_default_routines(context, part, encoder);
+    if (rv == EXR_ERR_SUCCESS && encoder->compress_fn) {
+        library->run = encoder->compress_fn;
+        encoder->encoding_user_data = library;
+        encoder->compress_fn = compress;
+    }
+    return rv;
+}
+
+static exr_result_t encode_chunk(exr_context_t context, int part, exr_encode_pipeline_t *encoder, compression *library,
                                  const skv_exr_image *image, int y, const float *lines) {
     exr_chunk_info_t chunk;
     exr_result_t rv = exr_write_scanline_chunk_info(context, part, y, &chunk);
@@ -160,7 +187,7 @@ static exr_result_t encode_chunk(exr_context_t context, int part, exr_encode_pip
         return rv;
     point_to(encoder, lines, image);
     if (y == 0)
-        rv = exr_encoding_choose_default_routines(context, part, encoder);
+        rv = choose_routines(context, part, encoder, library);
     return rv == EXR_ERR_SUCCESS ? exr_encoding_run(context, part, encoder) : rv;
 }
 
@@ -170,6 +197,7 @@ static exr_result_t write_pixels(exr_context_t context, int part, const skv_exr_
     const float limit = image->half ? HALF_MAX : FLT_MAX;
     float *copy = malloc(CHUNK_LINES * line * sizeof *copy);
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    compression library = {NULL};
     exr_result_t rv = copy ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
     int y = 0;
     for (; y < image->height && rv == EXR_ERR_SUCCESS; y += CHUNK_LINES) {
@@ -177,7 +205,7 @@ static exr_result_t write_pixels(exr_context_t context, int part, const skv_exr_
         const float *from = image->pixels + (size_t)y * line;
         for (size_t i = 0; i < (size_t)lines * line; i++)
             copy[i] = finite_within(from[i], limit);
-        rv = encode_chunk(context, part, &encoder, image, y, copy);
+        rv = encode_chunk(context, part, &encoder, &library, image, y, copy);
     }
     if (y > 0)
         (void)exr_encoding_destroy(context, &encoder);

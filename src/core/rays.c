@@ -141,6 +141,7 @@ void skv_block_columns(const skv_frame *frame, unsigned has, const skv_block *b,
     }
 }
 
+#if SKV_TERM_AEROSOL || SKV_TERM_DUST
 /// The phase function of aerosol or dust. @param d skv_phase_distance().
 SKV_INLINE void skv_block_phase(const skv_model *model, int s, const skv_lanes *d, const skv_lanes *nu,
                                 skv_lanes *phase) {
@@ -155,6 +156,7 @@ SKV_INLINE void skv_block_phase(const skv_model *model, int s, const skv_lanes *
 #endif
     (void)nu;
 }
+#endif
 
 #if SKV_TERM_DUST
 /// On its own: the frames without dust do not pay for it.

@@ -62,7 +62,7 @@ static int compare_with_built(uint32_t sum) {
     skv_colour_matrix matrix;
     uint32_t built = 0;
     if (skv_atmosphere_preset(&air, SKV_PRESET_EARTH_HAZY, 4) != SKV_OK || skv_model_build(&model, &air) != SKV_OK ||
-        skv_table_spec_kind(&spec, SKV_TABLE_ACCURATE) != SKV_OK)
+        skv_table_spec_for(&spec, &model, SKV_TABLE_ACCURATE) != SKV_OK)
         return failed("building a model");
     const size_t size = skv_table_size(&spec, 4), work_size = skv_table_work_size(&spec, 4);
     void *const table = calloc(1, size), *const work = malloc(work_size);

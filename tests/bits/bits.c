@@ -80,6 +80,10 @@ void bits_floats(const float *value, size_t n, bits_kind kind) {
         bits_float(value[i], kind);
 }
 
+int bits_tiny_is_zero(void) {
+    return tiny_is_zero;
+}
+
 uint32_t bits_random(void) {
     state ^= state << 13;
     state ^= state >> 17;
@@ -122,6 +126,8 @@ static void run(bits_scale scale) {
     bits_radiance(scale);
     bits_scene(scale);
     bits_display(scale);
+    bits_lights(scale);
+    bits_tables(scale);
 #endif
 }
 

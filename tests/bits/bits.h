@@ -29,10 +29,15 @@ uint32_t bits_pick(uint32_t n);
 /// A direction that is not zero, at times a special one (zenith, nadir, horizon), not normalised.
 void bits_direction(float direction[3]);
 
+/// Whether values below 2^-100 count as 0: what is packed of them may differ then.
+int bits_tiny_is_zero(void);
+
 void bits_elementary(bits_scale scale);
 void bits_models(bits_scale scale);
 void bits_radiance(bits_scale scale);
 void bits_scene(bits_scale scale);
 void bits_display(bits_scale scale);
+void bits_lights(bits_scale scale);
+void bits_tables(bits_scale scale);
 
 #endif

@@ -137,8 +137,6 @@ static void waters(int n) {
     }
 }
 
-void bits_lights(bits_scale scale);
-
 void bits_lights(bits_scale scale) {
     const char *const name = scale == BITS_SMALL ? "small" : "full";
     const int n = scale == BITS_SMALL ? 20 : 2000;

@@ -1,6 +1,6 @@
 # Tests of the command: eval, sun, their error lines, their readers under seeded changes.
 TEST_BIN    += $(B)/tests/command/test_text
-TEST_SCRIPT += tests/command/eval_atmosphere.sh tests/command/eval_queries.sh tests/command/eval_truth.sh tests/command/sun.sh tests/command/fuzz.sh
+TEST_SCRIPT += tests/command/eval_atmosphere.sh tests/command/eval_queries.sh tests/command/eval_truth.sh tests/command/eval_orders.sh tests/command/sun.sh tests/command/fuzz.sh
 TEST_FULL_SCRIPT += tests/command/fuzz_full.sh
 
 COMMAND_TOOL = $(patsubst %,$(B)/tools/skyvert/%.o,$(1))

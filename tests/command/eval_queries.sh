@@ -33,6 +33,7 @@ form 'trailing commas' "$head\n1,60,50,30,\n0,85,80.5,-200,,\n"
 form 'columns in another order, further ones' "note,rel_azimuth_deg,view_zenith_deg,id,sun_zenith_deg,altitude_km\n\"a, \"\"b\"\"\n\",30,50,7,60,1\n,-200,80.5,nan,85,0\n"
 form 'byte order mark before a quote' "\xef\xbb\xbf\"altitude_km\",sun_zenith_deg,view_zenith_deg,rel_azimuth_deg\n1,60,50,30\n0,85,80.5,-200\n"
 text "$head\n"
+does 'no rows, all orders' in.csv "$skyvert" eval --atmosphere air.ini
 does 'no rows' in.csv lit
 same 'no rows: the header alone' "$(wc -l <stdout)" 1
 text "$head\n+1.0e0,6.e1,.5e2,30\n"
@@ -126,8 +127,11 @@ for options in '--tier fast' '--tier high' '--rule uniform' '--rule keller --sam
     does "$options" in.csv lit $options
     same "$options: two lines" "$(wc -l <stdout)" 2
 done
-refuses 'all orders' 2 '^skyvert eval: --orders all .*allowed is --orders single' in.csv "$skyvert" eval --atmosphere air.ini
-refuses 'all orders, asked for' 2 '^skyvert eval: --orders all ' in.csv "$skyvert" eval --atmosphere air.ini --orders all
+refuses 'table' 2 '^skyvert eval: --table huge: allowed is accurate or small' in.csv lit --table huge
+does 'all orders' in.csv "$skyvert" eval --atmosphere air.ini --orders all
+cp stdout all.csv
+does 'all orders are the default' in.csv "$skyvert" eval --atmosphere air.ini
+same 'all orders are the default' "$(cat stdout)" "$(cat all.csv)"
 for option in --help --version; do
     does "eval $option" /dev/null "$skyvert" eval $option
     does "sun $option" /dev/null "$skyvert" sun $option

@@ -13,7 +13,16 @@ int main(void) {
     SIZE(skv_quality);
     SIZE(skv_colour_matrix);
     SIZE(skv_dome);
+    SIZE(skv_table_builder);
     SIZE(skv_sun);
     SIZE(skv_moon);
+    for (int kind = 0; kind < SKV_TABLE_KINDS; kind++) {
+        static const char *const names[SKV_TABLE_KINDS] = {"accurate", "small"};
+        skv_table_spec spec;
+        if (skv_table_spec_kind(&spec, (skv_table_kind)kind) != SKV_OK)
+            break;
+        printf("table_%s %u work_%s %u\n", names[kind], (unsigned)skv_table_size(&spec, 4), names[kind],
+               (unsigned)skv_table_work_size(&spec, 4));
+    }
     return 0;
 }

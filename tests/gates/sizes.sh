@@ -4,7 +4,7 @@
 # stack. With -mavx2 lanes are twice as wide in bytes and clang keeps every constant as a vector on the stack: 5.5 KiB.
 . "$(dirname "$0")/lib.sh"
 . "$(dirname "$0")/counts.sh"
-X86_STACK=4096 AVX2_STACK=5632 CORTEX_M_STACK=2048
+X86_STACK=4096 AVX2_STACK=5632 CORTEX_M_STACK=2048 TABLE_STACK=3072
 # within WHAT BYTES LIMIT
 within() { [ -n "$2" ] && [ "$2" -le "$3" ] || { echo "sizes: $1: ${2:-no} bytes of stack, at most $3 allowed"; return 1; }; }
 # call_graph FILE.ci...: the worst chain of each public function (gcc counts the return address in).
@@ -15,11 +15,16 @@ stack_report() {
     if [ -s "$3" ]; then
         graph=$(awk '$1 == "skv_radiance" { print $2 }' "$3")
         within "$1, skv_radiance by the call graph ($(awk '$1 == "skv_radiance" { print $3 }' "$3"))" "$graph" "$2" || failed=1
-        echo "figure: stack, $1, call graph: $(awk '/^skv_(radiance|model_build|frame_begin|colour|sun_at|moon_at|dome_build|pack) / { printf "%s %d B  ", $1, $2 }' "$3")"
+        echo "figure: stack, $1, call graph: $(awk '/^skv_(radiance|model_build|frame_begin|table_step|frame_grid|irradiance|colour|sun_at|moon_at|dome_build|pack) / { printf "%s %d B  ", $1, $2 }' "$3")"
     fi
     grep '^failed' "$4" && failed=1
     worst=$(awk '$1 == "skv_radiance" && $3 > most { most = $3 } END { print most }' "$4")
     within "$1, skv_radiance, painted" "$worst" "$2" || failed=1
+    # Building a table and a grid calls skv_radiance() with its rays, or its stages: TABLE_STACK on top of that.
+    for call in skv_table_step skv_frame_grid skv_irradiance; do
+        worst=$(awk -v call=$call '$1 == call && $3 > most { most = $3 } END { print most }' "$4")
+        within "$1, $call, painted" "$worst" $(($2 + TABLE_STACK)) || failed=1
+    done
     echo "figure: stack, $1, painted: $(awk '{ if ($3 > most[$1]) most[$1] = $3 } END { for (f in most) printf "%s %d B  ", f, most[f] }' "$4")"
 }
 counted() { # NAME FILE

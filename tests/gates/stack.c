@@ -68,6 +68,41 @@ static const skv_sky sky = {radiance[0], sizeof *radiance, transmittance[0], siz
 static void do_radiance(void) {
     status = skv_radiance(&frame, RAYS, &rays, &sky);
 }
+// The least table: what lies on the stack does not depend on its size.
+static uint32_t table[400];
+static float work[3800];
+static skv_table_builder builder;
+static int diffuse_begin(void) {
+    skv_table_spec spec;
+    status = skv_table_spec_kind(&spec, SKV_TABLE_SMALL);
+    if (status != SKV_OK)
+        return 0;
+    spec.altitudes = 4;
+    spec.suns = 8;
+    spec.orders = spec.polar[0] = spec.polar[1] = spec.azimuths[0] = spec.azimuths[1] = 2;
+    status = skv_table_begin(&builder, &model, &spec, (skv_table *)(void *)table, sizeof table, work, sizeof work);
+    return status == SKV_OK;
+}
+static int steps_done;
+/// All of the kinds of steps, the deepest counts.
+static void do_steps(void) {
+    for (steps_done = 0; status == SKV_OK && steps_done < 1000;)
+        status = skv_table_step(&builder, &steps_done);
+}
+static void do_frame_table(void) {
+    status = skv_frame_table(&frame, (const skv_table *)(const void *)table);
+}
+static void do_grid(void) {
+    status = skv_frame_grid(&frame, work, sizeof work);
+}
+static void do_irradiance(void) {
+    static float out[RAYS][4];
+    status = skv_irradiance(&frame, SKV_IRRADIANCE_ALL, RAYS, direction[0], 0, out[0], 0);
+}
+static const skv_rays free_rays = {direction[0], 0, NULL, 0};
+static void do_radiance_grid(void) {
+    status = skv_radiance(&frame, RAYS, &free_rays, &sky);
+}
 static void do_colour(void) {
     skv_colour_matrix matrix;
     status = skv_colour_matrix_fitted(&matrix, model.bands, model.wavelength_nm);
@@ -117,6 +152,23 @@ static void all_rules(void) {
     }
 }
 
+static void report_diffuse(void) {
+    const char *const variant = model.bands == 3 ? "diffuse-3-bands" : "diffuse-4-bands";
+    quality = (skv_quality){SKV_GAUSS_EXP, SKV_DEPTH_BY_CHAPMAN, 6, 6, SKV_WITH_ALL};
+    if (!diffuse_begin())
+        return;
+    used_by(do_steps);
+    (void)diffuse_begin();
+    const size_t none = used_by(do_nothing), used = used_by(do_steps);
+    printf("skv_table_step %s %u\n", variant, (unsigned)(used - none));
+    do_frame();
+    report("skv_frame_table", variant, do_frame_table);
+    report("skv_radiance", variant, do_radiance);
+    report("skv_frame_grid", variant, do_grid);
+    report("skv_radiance", variant, do_radiance_grid);
+    report("skv_irradiance", variant, do_irradiance);
+}
+
 int main(void) {
     for (int i = 0; i < RAYS; ++i) {
         direction[i][0] = 1.0f;
@@ -139,6 +191,7 @@ int main(void) {
         skv_quality_tier(&quality, SKV_TIER_STANDARD);
         report("skv_frame_begin", bands == 3 ? "3-bands" : "4-bands", do_frame);
         all_rules();
+        report_diffuse();
         report("skv_colour", bands == 3 ? "3-bands" : "4-bands", do_colour);
     }
     report("skv_sun_at", "-", do_sun);

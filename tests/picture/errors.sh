@@ -34,6 +34,18 @@ no "bands" 2 '--bands.*3.*4' "${r[@]}" --bands 5 --out x.exr
 no "tier" 2 '--tier' "${r[@]}" --tier best --out x.exr
 no "samples" 2 '--samples' "${r[@]}" --samples 65 --out x.exr
 no "samples of gauss-exp" 2 '--samples 17.*2 to 16' "${r[@]}" --samples 17 --out x.exr
+no "orders" 2 '--orders two: allowed is single or all' "${r[@]}" --orders two --out x.exr
+no "table" 2 '--table huge: allowed is accurate or small' "${r[@]}" --table huge --out x.exr
+no "grid" 2 '--grid maybe: allowed is off, on or auto' "${r[@]}" --grid maybe --out x.exr
+no "discs" 2 '--discs auto: allowed is off or on' "${r[@]}" --discs auto --out x.exr
+no "moon" 2 '--moon full: allowed is off, on or auto' "${r[@]}" --moon full --out x.exr
+no "moon nowhere" 2 '--moon on: where.*--moon-zenith-deg' render --sun-zenith-deg 100 --moon on --out x.exr
+no "moon zenith" 2 '--moon-zenith-deg.*180' "${r[@]}" --moon-zenith-deg 181 --out x.exr
+no "moon's azimuth alone" 2 '--moon-azimuth-deg goes with --moon-zenith-deg' "${r[@]}" --moon-azimuth-deg 1 --out x.exr
+no "night" 2 '--night dark: allowed is off, on or auto' "${r[@]}" --night dark --out x.exr
+no "wind" 2 '--wind-m-s.*0 to 40' "${r[@]}" --ground water --wind-m-s 41 --out x.exr
+no "wind's azimuth" 2 '--wind-azimuth-deg.*360' "${r[@]}" --ground water --wind-azimuth-deg 361 --out x.exr
+no "kind of ground" 2 '--ground sand: allowed is none, lit, land or water' "${r[@]}" --ground sand --out x.exr
 no "ground" 2 '--ground-m' "${r[@]}" --ground-m 13000 --out x.exr
 no "ground over the air" 2 'below the top' render --sun-zenith-deg 1 --preset tiny --ground-m 12000 --out x.exr
 no "png bits" 2 '--png-bits' "${r[@]}" --png-bits 10 --out x.png

@@ -104,10 +104,42 @@ static void test_weights(void **state) {
     check_near("fisheye: share of the cap above 30 degrees", cap / all, 0.5, 2e-3); // pixels cut by the circle
 }
 
+/// Largest angle between pixels side by side or one above the other.
+static double widest(const projection *map) {
+    double most = 0.0;
+    for (int y = 0; y + 1 < map->height; y++)
+        for (int x = 0; x + 1 < map->width; x++) {
+            float here[3], next[2][3];
+            if (!(projection_direction(map, x, y, here) > 0.0 && projection_direction(map, x + 1, y, next[0]) > 0.0 &&
+                  projection_direction(map, x, y + 1, next[1]) > 0.0))
+                continue;
+            for (int k = 0; k < 2; k++) {
+                const double d[3] = {(double)here[0] - (double)next[k][0], (double)here[1] - (double)next[k][1],
+                                     (double)here[2] - (double)next[k][2]};
+                most = fmax(most, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+            }
+        }
+    return 2.0 * asin(0.5 * most);
+}
+
+/// The spacing that discs are spread over is that of the pixels themselves.
+static void test_spacing(void **state) {
+    (void)state;
+    projection map = {.kind = PROJECTION_FISHEYE, .width = 101, .height = 121, .fov_deg = 180.0};
+    projection_prepare(&map);
+    check_near("fisheye: spacing", projection_spacing(&map) / widest(&map), 1.0, 0.01); // chords of a degree and a half
+    map = (projection){.kind = PROJECTION_LATLONG, .width = 100, .height = 61};
+    projection_prepare(&map);
+    check_near("latlong: spacing", projection_spacing(&map) / widest(&map), 1.0, 0.01);
+    map = (projection){.kind = PROJECTION_PERSPECTIVE, .width = 81, .height = 41, .fov_deg = 60.0};
+    projection_prepare(&map);
+    check_near("perspective: spacing", projection_spacing(&map) / widest(&map), 1.0, 0.01);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fisheye),     cmocka_unit_test(test_fisheye_wide), cmocka_unit_test(test_latlong),
-        cmocka_unit_test(test_perspective), cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_perspective), cmocka_unit_test(test_weights),      cmocka_unit_test(test_spacing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,41 +1,18 @@
 /// bench-cost count|time FILE.ini: what a vertex costs, single scattering.
 /// count: run it under callgrind --collect-atstart=no; every figure is one dump, labelled `what|rule|vertices`.
 /// time:  nanoseconds, rules interleaved so that a busy machine disturbs all of them alike.
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <valgrind/callgrind.h>
 
-#include "cases.h"
+#include "dome.h"
 
-#define RINGS    32
-#define AZIMUTHS 64
-#define VERTICES (RINGS * AZIMUTHS)
-#define COPIES   64
-#define REPEATS  41
-
-// What is looked at: the sky alone from 2 km, or a dome down to 10 degrees below the horizontal from 1 km.
-typedef struct scene {
-    const char *name;
-    int bare;
-    float height_km;
-    double sun_zenith_deg, lowest_deg;
-} scene;
-
-static const scene scenes[] = {{"bare", 1, 2, 45, 0}, {"dome", 0, 1, 60, -10}, {"dusk", 0, 1, 94, -10}};
-#define SCENES 3
+#define COPIES  64
+#define REPEATS 41
 
 static float direction[VERTICES][3], radiance[VERTICES][4];
 static double checksum;
-
-static void lay_dome(const scene *s) {
-    for (int i = 0; i < VERTICES; i++) {
-        const double elevation = 90 + (s->lowest_deg - 90) * ((i / AZIMUTHS) + 0.5) / RINGS;
-        bench_direction(direction[i], 90 - elevation, 360.0 * (i % AZIMUTHS) / AZIMUTHS);
-    }
-}
 
 static void add_up(int n, int bands) {
     for (int i = 0; i < n; i++)
@@ -74,7 +51,7 @@ static void count_worst(const bench_air *air, const skv_quality *quality, const 
     }
 }
 
-static int begin(skv_frame *frame, const bench_air *air, const scene *s, size_t rule) {
+static int begin(skv_frame *frame, const bench_air *air, const bench_scene *s, size_t rule) {
     skv_quality quality;
     skv_frame probe;
     skv_light light = {{0, 0, 1}, {1, 1, 1, 1}};
@@ -86,12 +63,12 @@ static int begin(skv_frame *frame, const bench_air *air, const scene *s, size_t 
 }
 
 static void count(const bench_air airs[2], int trimmed) {
-    for (int k = 0; k < (trimmed ? 1 : SCENES); k++)
+    for (int k = 0; k < (trimmed ? 1 : BENCH_SCENES); k++)
         for (size_t r = 0; r < bench_rule_count; r++) {
             skv_frame frame;
-            lay_dome(&scenes[k]);
-            if (begin(&frame, &airs[scenes[k].bare], &scenes[k], r))
-                count_one(&frame, VERTICES, scenes[k].name, bench_rules[r].name);
+            bench_lay_dome(&bench_scenes[k], direction);
+            if (begin(&frame, &airs[bench_scenes[k].bare], &bench_scenes[k], r))
+                count_one(&frame, VERTICES, bench_scenes[k].name, bench_rules[r].name);
         }
     for (size_t r = 0; !trimmed && r < bench_rule_count; r++) {
         skv_quality quality;
@@ -100,38 +77,27 @@ static void count(const bench_air airs[2], int trimmed) {
     }
 }
 
-static double now_ns(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void time_scene(const bench_air *air, const scene *s) {
+static void time_scene(const bench_air *air, const bench_scene *s) {
     static double took[16][REPEATS];
     static skv_frame frame[16];
     int present[16];
-    lay_dome(s);
+    bench_lay_dome(s, direction);
     for (size_t r = 0; r < bench_rule_count; r++)
         present[r] = begin(&frame[r], air, s, r);
     for (int i = -3; i < REPEATS; i++)
         for (size_t r = 0; r < bench_rule_count; r++) {
             if (!present[r])
                 continue;
-            const double start = now_ns();
+            const double start = bench_now_ns();
             shine(&frame[r], VERTICES);
             add_up(VERTICES, air->model.bands);
             if (i >= 0)
-                took[r][i] = now_ns() - start;
+                took[r][i] = bench_now_ns() - start;
         }
     for (size_t r = 0; r < bench_rule_count; r++) {
         if (!present[r])
             continue;
-        qsort(took[r], REPEATS, sizeof took[r][0], ascending);
+        bench_sort(took[r], REPEATS);
         printf("%s|%s|%.1f|%.1f|%.3f\n", s->name, bench_rules[r].name, took[r][REPEATS / 2] / VERTICES,
                took[r][0] / VERTICES, took[r][0] * 1e-6);
     }
@@ -149,8 +115,8 @@ int main(int argc, char **argv) {
         bench_air_load(&airs[0], argv[2], 0);
     if (argv[1][0] == 'c')
         count(airs, trimmed);
-    for (int k = 0; argv[1][0] == 't' && k < (trimmed ? 1 : SCENES); k++)
-        time_scene(&airs[scenes[k].bare], &scenes[k]);
+    for (int k = 0; argv[1][0] == 't' && k < (trimmed ? 1 : BENCH_SCENES); k++)
+        time_scene(&airs[bench_scenes[k].bare], &bench_scenes[k]);
     printf("checksum|%.9g\n", checksum);
     return 0;
 }

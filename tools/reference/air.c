@@ -19,9 +19,11 @@ static void fill_row(ref_air *air, int i) {
     const double v = (double)i / air->rows, y = air->top_km * v * v, h = y + a->ground_km;
     const double e = y * (2 * air->ground + y), r = air->ground + y;
     const double rayleigh = ref_density(&a->rayleigh, h), aerosol = ref_density(&a->aerosol, h);
+    const double dust = ref_density(&a->dust, h);
     for (int k = 0; k < a->bands; k++) {
         air->rayleigh[i * REF_BANDS + k] = a->rayleigh_scattering[k] * rayleigh;
         air->aerosol[i * REF_BANDS + k] = a->aerosol_scattering[k] * aerosol;
+        air->dust[i * REF_BANDS + k] = a->dust_scattering[k] * dust;
     }
     for (int j = 0; j <= air->columns; j++) {
         const double t = LEAST + (1 - LEAST) * j / air->columns, mu = (1 / t - 1) / STEEP;
@@ -29,9 +31,7 @@ static void fill_row(ref_air *air, int i) {
         ref_stretch(w, e, r * mu, ref_to_top(w, e, r * mu), column);
         double *out = air->depth + ((size_t)i * (size_t)(air->columns + 1) + (size_t)j) * REF_BANDS;
         for (int k = 0; k < a->bands; k++)
-            out[k] = (a->rayleigh_scattering[k] * column[0] + a->aerosol_extinction[k] * column[1] +
-                      a->ozone_absorption[k] * column[2]) /
-                     t;
+            out[k] = ref_depth(a, column, k) / t;
     }
 }
 
@@ -47,8 +47,10 @@ static double stretch_of(const ref_air *air) {
     const ref_atmosphere *a = air->world.atmosphere;
     double extinction = 0, depth = 0;
     for (int k = 0; k < a->bands; k++) {
-        extinction += a->rayleigh_scattering[k] * ref_density(&a->rayleigh, a->ground_km) +
-                      a->aerosol_extinction[k] * ref_density(&a->aerosol, a->ground_km);
+        extinction +=
+            (a->rayleigh_scattering[k] + a->rayleigh_absorption[k]) * ref_density(&a->rayleigh, a->ground_km) +
+            a->aerosol_extinction[k] * ref_density(&a->aerosol, a->ground_km) +
+            a->dust_extinction[k] * ref_density(&a->dust, a->ground_km);
         depth += air->depth[k] * LEAST;
     }
     const double least = 0.08 * air->top_km;
@@ -67,12 +69,15 @@ int ref_air_make(ref_air *air, const ref_atmosphere *a, int rows, int columns, i
     air->depth = calloc(heights * (size_t)(columns + 1) * REF_BANDS, sizeof *air->depth);
     air->rayleigh = calloc(heights * REF_BANDS, sizeof *air->rayleigh);
     air->aerosol = calloc(heights * REF_BANDS, sizeof *air->aerosol);
-    if (!air->depth || !air->rayleigh || !air->aerosol) {
+    air->dust = calloc(heights * REF_BANDS, sizeof *air->dust);
+    if (!air->depth || !air->rayleigh || !air->aerosol || !air->dust) {
         ref_air_free(air);
         return -1;
     }
-    for (int k = 0; k < a->bands; k++)
+    for (int k = 0; k < a->bands; k++) {
         air->albedo[k] = a->albedo[k];
+        air->dusty |= a->dust.kind != REF_NONE && a->dust_scattering[k] > 0;
+    }
     threads = threads < 1 ? 1 : threads > MOST ? MOST : threads;
     for (int i = 0; i < threads; i++)
         jobs[i] = (job){air, i, threads};
@@ -92,7 +97,8 @@ void ref_air_free(ref_air *air) {
     free(air->depth);
     free(air->rayleigh);
     free(air->aerosol);
-    air->depth = air->rayleigh = air->aerosol = NULL;
+    free(air->dust);
+    air->depth = air->rayleigh = air->aerosol = air->dust = NULL;
 }
 
 typedef struct place {
@@ -187,9 +193,11 @@ void ref_line_at(const ref_air *air, const ref_line *l, double s, ref_point *q) 
     depth_between(air, l, s, &p, q->depth);
     q->lit = depth_any(air, &p, q->e, b_sun, q->sun);
     const double *rayleigh = air->rayleigh + p.row * REF_BANDS, *aerosol = air->aerosol + p.row * REF_BANDS;
+    const double *dust = air->dust + p.row * REF_BANDS;
     for (int k = 0; k < REF_BANDS; k++) {
         q->rayleigh[k] = (1 - p.part) * rayleigh[k] + p.part * rayleigh[REF_BANDS + k];
         q->aerosol[k] = (1 - p.part) * aerosol[k] + p.part * aerosol[REF_BANDS + k];
+        q->dust[k] = (1 - p.part) * dust[k] + p.part * dust[REF_BANDS + k];
     }
 }
 

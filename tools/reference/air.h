@@ -19,10 +19,14 @@ typedef struct ref_air {
     double *depth;     ///< [rows + 1][columns + 1][REF_BANDS]
     double *rayleigh;  ///< [rows + 1][REF_BANDS] scattering, 1/km
     double *aerosol;   ///< [rows + 1][REF_BANDS]
+    double *dust;      ///< [rows + 1][REF_BANDS]
+    int dusty;         ///< there is dust
     double albedo[REF_BANDS];
 } ref_air;
 
-/// @param rows, columns  e.g. 1024 and 256. @return 0; -1 out of memory.
+enum { REF_AIR_ROWS = 1024, REF_AIR_COLUMNS = 256 };
+
+/// @param rows, columns  REF_AIR_ROWS and REF_AIR_COLUMNS, or fewer. @return 0; -1 out of memory.
 int ref_air_make(ref_air *air, const ref_atmosphere *atmosphere, int rows, int columns, int threads);
 void ref_air_free(ref_air *air);
 
@@ -45,6 +49,7 @@ typedef struct ref_point {
     double sun[REF_BANDS];      ///< toward the sun, when lit
     double rayleigh[REF_BANDS]; ///< scattering, 1/km
     double aerosol[REF_BANDS];
+    double dust[REF_BANDS];
 } ref_point;
 
 void ref_line_begin(const ref_air *air, ref_line *line, double e, double b, double b_sun, double nu);

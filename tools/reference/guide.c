@@ -83,6 +83,7 @@ typedef struct build {
 static void look(const build *b, const ref_line *l, ref_glow *glow) {
     const ref_air *air = b->air;
     double edges[REF_CELLS_MAX], smooth[REF_BANDS] = {0}, aerosol[REF_BANDS] = {0}, mean[REF_BANDS] = {0};
+    double dust[REF_BANDS] = {0};
     const double rayleigh = ref_phase_rayleigh(l->nu);
     const int n = ref_line_cells(air, l, LIT_CELLS, DARK_CELLS, edges);
     for (int i = 0; i < n; i++) {
@@ -92,8 +93,9 @@ static void look(const build *b, const ref_line *l, ref_glow *glow) {
             ref_guide_mean(b->guide, q.height01, q.mu_s, mean);
         for (int k = 0; k < REF_BANDS; k++) {
             const double t = (edges[i + 1] - edges[i]) * exp(-q.depth[k]), sun = q.lit ? exp(-q.sun[k]) : 0;
-            smooth[k] += t * (q.rayleigh[k] * rayleigh * sun + (q.rayleigh[k] + q.aerosol[k]) * mean[k]);
+            smooth[k] += t * (q.rayleigh[k] * rayleigh * sun + (q.rayleigh[k] + q.aerosol[k] + q.dust[k]) * mean[k]);
             aerosol[k] += t * q.aerosol[k] * sun;
+            dust[k] += t * q.dust[k] * sun;
         }
     }
     if (l->ground) {
@@ -109,6 +111,7 @@ static void look(const build *b, const ref_line *l, ref_glow *glow) {
     for (int k = 0; k < REF_BANDS; k++) {
         glow->smooth[k] = (float)smooth[k];
         glow->aerosol[k] = (float)aerosol[k];
+        glow->dust[k] = (float)dust[k];
     }
 }
 
@@ -131,8 +134,10 @@ static void gather(const build *b, double height01, double mu_s, ref_glow *glows
             if (glows)
                 glows[p * GUIDE_TURNS + a] = glow;
             const double phase = ref_phase_aerosol(air->world.atmosphere, 1 - nu, 1 + nu);
+            const double dust = ref_phase_dust(air->world.atmosphere, 1 - nu, 1 + nu);
             for (int k = 0; k < REF_BANDS; k++)
-                mean[k] += share * ((double)glow.smooth[k] + fmin(phase, 1) * (double)glow.aerosol[k]);
+                mean[k] += share * ((double)glow.smooth[k] + fmin(phase, 1) * (double)glow.aerosol[k] +
+                                    fmin(dust, 1) * (double)glow.dust[k]);
         }
 }
 
@@ -186,6 +191,15 @@ static void extrapolate(double *mean, const double *next, int n) {
         mean[i] = fmax(mean[i], 1e-9 * most + 1e-30);
 }
 
+// Thick air takes more orders than two and their ratio tell.
+static int more_passes(const ref_air *air) {
+    double depth[REF_BANDS], most = 0;
+    ref_air_sun(air, 1, depth);
+    for (int k = 0; k < REF_BANDS; k++)
+        most = fmax(most, depth[k]);
+    return most > 1.5 ? (int)fmin(30, 4 * most) : 0;
+}
+
 int ref_guide_make(ref_guide *g, const ref_air *air, int threads) {
     const int n = (GUIDE_HEIGHTS + 1) * (GUIDE_SUNS + 1) * REF_BANDS;
     *g = (ref_guide){0};
@@ -202,6 +216,11 @@ int ref_guide_make(ref_guide *g, const ref_air *air, int threads) {
     b.next = next;
     run(&b, 1, threads);
     extrapolate(g->mean, next, n);
+    for (int i = 0; i < more_passes(air); i++) {
+        run(&b, 1, threads);
+        for (int k = 0; k < n; k++)
+            g->mean[k] = fmax(next[k], 1e-9 * g->mean[k]);
+    }
     run(&b, 2, threads);
     free(next);
     return 0;

@@ -8,9 +8,9 @@
 enum { GUIDE_HEIGHTS = 24, GUIDE_SUNS = 64, GUIDE_BELOW = 4, GUIDE_ABOVE = 6, GUIDE_TURNS = 6 };
 enum { GUIDE_POLARS = GUIDE_BELOW + GUIDE_ABOVE };
 
-/// Radiance that comes from a direction, for a unit sun: smooth + aerosol_phase(nu) * aerosol.
+/// Radiance that comes from a direction, for a unit sun: smooth + aerosol_phase(nu) * aerosol + dust_phase(nu) * dust.
 typedef struct ref_glow {
-    float smooth[REF_BANDS], aerosol[REF_BANDS];
+    float smooth[REF_BANDS], aerosol[REF_BANDS], dust[REF_BANDS];
 } ref_glow;
 
 typedef struct ref_guide {

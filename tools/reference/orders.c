@@ -91,8 +91,10 @@ static void *work(void *user) {
         }
         show(p, now);
     }
-    if (!view)
+    if (!view) {
+        fprintf(stderr, "skyvert-reference: out of memory\n");
         p->failed = 1;
+    }
     pthread_mutex_unlock(&p->lock);
     free(view);
     return NULL;
@@ -113,9 +115,7 @@ static int finish(pool *p) {
         fprintf(stderr, "\r\033[K");
     if (p->job->state && !p->failed)
         p->failed |= ref_state_write(p->job->state, p->digest, p->totals, p->count);
-    if (p->failed)
-        fprintf(stderr, "skyvert-reference: out of memory, or the state could not be written\n");
-    else if (p->done < p->count)
+    if (!p->failed && p->done < p->count)
         fprintf(stderr, "skyvert-reference: interrupted with %zu of %zu rays done%s\n", p->done, p->count,
                 p->job->state ? "; the same command goes on" : "");
     return p->failed || p->done < p->count;
@@ -138,6 +138,8 @@ int ref_orders_run(const ref_tracer *tracer, const ref_job *job, const ref_query
         sigaction(SIGTERM, &action, &old_term);
     }
     p.start = p.shown = p.saved = now_s();
+    if (job->state) // a place that cannot be written is found out before the work
+        p.failed = ref_state_write(job->state, p.digest, totals, count);
     pthread_mutex_init(&p.lock, NULL);
     run_threads(&p);
     pthread_mutex_destroy(&p.lock);

@@ -17,7 +17,7 @@ enum {
 };
 
 int ref_tracer_make(ref_tracer *t, const ref_atmosphere *a, int threads) {
-    if (ref_air_make(&t->air, a, 1024, 256, threads) != 0)
+    if (ref_air_make(&t->air, a, REF_AIR_ROWS, REF_AIR_COLUMNS, threads) != 0)
         return -1;
     if (ref_guide_make(&t->guide, &t->air, threads) == 0)
         return 0;
@@ -78,28 +78,35 @@ typedef struct chooser {
     const ref_view *view;
     const vertex *at;
     ref_outlook outlook;
-    double up[3], toward[3]; // toward: the sun, or the horizon under which it has set
-    double g, mean[REF_BANDS];
-    int wide, ahead, sunward; // candidates of each kind
+    double up[3], toward[3];           // toward: the sun, or the horizon under which it has set
+    double g[2], mean[REF_BANDS];      // g: of the lobes of aerosol and dust
+    int wide, ahead[2], sunward[2], n; // candidates of each kind
 } chooser;
 
 typedef struct candidate {
     double direction[3], weight[REF_BANDS], expected, pdf;
 } candidate;
 
+// Lobes about the leg for what scatters here, about the sun for what the air has, and the rest everywhere.
 static void share_candidates(chooser *c, int n) {
     const ref_point *p = c->at->point;
-    double aerosol = 0, all = 1e-300;
+    double aerosol = 0, dust = 0, all = 1e-300;
     if (p)
         for (int k = 0; k < REF_BANDS; k++) {
             aerosol += p->aerosol[k];
-            all += p->aerosol[k] + p->rayleigh[k];
+            dust += p->dust[k];
+            all += p->aerosol[k] + p->rayleigh[k] + p->dust[k];
         }
-    c->ahead = aerosol > 0.03 * all ? (n + 1) / 4 : 0;
-    if (aerosol > 0.7 * all)
-        c->ahead++;
-    c->sunward = (n + 2) / 4;
-    c->wide = n - c->ahead - c->sunward;
+    c->ahead[0] = (aerosol > 0.03 * all ? (n + 1) / 4 : 0) + (aerosol > 0.7 * all);
+    c->ahead[1] = (dust > 0.03 * all) + (dust > 0.7 * all ? n / 4 : 0);
+    c->sunward[1] = c->view->tracer->air.dusty ? 1 : 0;
+    c->sunward[0] = (n + 2) / 4 > c->sunward[1] ? (n + 2) / 4 - c->sunward[1] : 0;
+    c->wide = n - c->ahead[0] - c->ahead[1] - c->sunward[0] - c->sunward[1];
+    if (c->wide < 1) { // much of both: n is 4 at least
+        c->ahead[0] = c->ahead[1] = 1;
+        c->wide = n - 2 - c->sunward[0] - c->sunward[1];
+    }
+    c->n = n;
 }
 
 static void aim(chooser *c) {
@@ -123,14 +130,32 @@ static double wide_pdf(const chooser *c, double mu) {
 }
 
 static void propose(const chooser *c, int i, double u, double w, double out[3]) {
-    if (i < c->ahead)
-        about(c->at->direction, lobe_cosine(c->g, u), w, out);
-    else if (i < c->ahead + c->sunward)
-        about(c->toward, lobe_cosine(c->g, u), w, out);
-    else if (c->at->ground)
-        about(c->up, sqrt(u), w, out);
-    else
-        about(c->up, 2 * u - 1, w, out);
+    for (int kind = 0; kind < 2; kind++) {
+        if (i < c->ahead[kind]) {
+            about(c->at->direction, lobe_cosine(c->g[kind], u), w, out);
+            return;
+        }
+        i -= c->ahead[kind];
+        if (i < c->sunward[kind]) {
+            about(c->toward, lobe_cosine(c->g[kind], u), w, out);
+            return;
+        }
+        i -= c->sunward[kind];
+    }
+    about(c->up, c->at->ground ? sqrt(u) : 2 * u - 1, w, out);
+}
+
+// Density of all candidates together.
+static double density(const chooser *c, const double direction[3], double mu, double turn) {
+    const double toward = dot(direction, c->toward);
+    double sum = c->wide * wide_pdf(c, mu);
+    for (int kind = 0; kind < 2; kind++) {
+        if (c->sunward[kind])
+            sum += c->sunward[kind] * lobe_pdf(c->g[kind], toward);
+        if (c->ahead[kind])
+            sum += c->ahead[kind] * lobe_pdf(c->g[kind], turn);
+    }
+    return sum / c->n;
 }
 
 // Weight and expectation of a direction.
@@ -138,24 +163,23 @@ static void weigh(const chooser *c, const double throughput[REF_BANDS], candidat
     const ref_view *v = c->view;
     const ref_air *air = &v->tracer->air;
     const ref_atmosphere *a = air->world.atmosphere;
-    const int n = c->ahead + c->sunward + c->wide;
+    const ref_point *p = c->at->point;
     const double mu = dot(q->direction, c->up), nu = dot(q->direction, v->sun);
-    const double turn = c->at->ground ? 0 : dot(q->direction, c->at->direction);
+    const double turn = p ? dot(q->direction, c->at->direction) : 0;
     q->expected = 0;
-    q->pdf = c->wide * wide_pdf(c, mu) + c->sunward * lobe_pdf(c->g, dot(q->direction, c->toward));
-    if (c->ahead)
-        q->pdf += c->ahead * lobe_pdf(c->g, turn);
-    q->pdf /= n;
-    if (c->at->ground && mu <= 0)
+    q->pdf = density(c, q->direction, mu, turn);
+    if (!p && mu <= 0)
         return;
     const ref_glow *glow = ref_guide_glow(&c->outlook, mu, nu);
-    const double rayleigh = ref_phase_rayleigh(turn),
-                 aerosol = c->at->ground ? 0 : ref_phase_aerosol(a, 1 - turn, 1 + turn);
+    const double rayleigh = ref_phase_rayleigh(turn), aerosol = ref_phase_aerosol(a, 1 - turn, 1 + turn);
+    const double dust = air->dusty ? ref_phase_dust(a, 1 - turn, 1 + turn) : 0;
     const double sunward = ref_phase_aerosol(a, 1 - nu, 1 + nu);
+    const double sunward_dust = air->dusty ? ref_phase_dust(a, 1 - nu, 1 + nu) : 0;
     for (int k = 0; k < REF_BANDS; k++) {
-        const double weight = c->at->ground ? air->albedo[k] / PI * mu
-                                            : c->at->point->rayleigh[k] * rayleigh + c->at->point->aerosol[k] * aerosol;
-        const double light = (double)glow->smooth[k] + sunward * (double)glow->aerosol[k] + 0.05 * c->mean[k];
+        const double weight =
+            p ? p->rayleigh[k] * rayleigh + p->aerosol[k] * aerosol + p->dust[k] * dust : air->albedo[k] / PI * mu;
+        const double light = (double)glow->smooth[k] + sunward * (double)glow->aerosol[k] +
+                             sunward_dust * (double)glow->dust[k] + 0.05 * c->mean[k];
         q->weight[k] = throughput[k] * weight;
         q->expected += q->weight[k] * v->scale[k] * light;
     }
@@ -167,7 +191,8 @@ static int turn(const ref_view *v, const vertex *at, int n, double u, double w, 
     chooser c = {.view = v, .at = at};
     candidate q[CANDIDATES];
     double sum = 0;
-    c.g = fmax(-0.98, fmin(0.98, v->tracer->air.world.atmosphere->g));
+    c.g[0] = fmax(-0.98, fmin(0.98, v->tracer->air.world.atmosphere->g));
+    c.g[1] = fmax(-0.98, fmin(0.98, v->tracer->air.world.atmosphere->dust_g));
     c.outlook = ref_guide_outlook(&v->tracer->guide, &v->tracer->air, at->e, at->mu_s);
     ref_guide_mean(&v->tracer->guide, at->height01, at->mu_s, c.mean);
     share_candidates(&c, n);
@@ -213,7 +238,7 @@ static double promise(const ref_view *v, const ref_point *q, const double throug
     double mean[REF_BANDS], sum = 0;
     ref_guide_mean(&v->tracer->guide, q->height01, q->mu_s, mean);
     for (int k = 0; k < REF_BANDS; k++)
-        sum += throughput[k] * v->scale[k] * (q->rayleigh[k] + q->aerosol[k]) * mean[k];
+        sum += throughput[k] * v->scale[k] * (q->rayleigh[k] + q->aerosol[k] + q->dust[k]) * mean[k];
     return sum;
 }
 
@@ -244,6 +269,7 @@ static double walk(const ref_view *v, const double from[3], const double directi
     g->cells = ref_line_cells(air, l, LIT, DARK, edges);
     const double rayleigh = ref_phase_rayleigh(l->nu),
                  aerosol = ref_phase_aerosol(air->world.atmosphere, 1 - l->nu, 1 + l->nu);
+    const double dust = air->dusty ? ref_phase_dust(air->world.atmosphere, 1 - l->nu, 1 + l->nu) : 0;
     for (int i = 0; i < g->cells; i++) {
         ref_point *q = &g->point[i];
         const double size = edges[i + 1] - edges[i];
@@ -252,7 +278,8 @@ static double walk(const ref_view *v, const double from[3], const double directi
         for (int k = 0; k < REF_BANDS; k++) {
             g->carried[i][k] = throughput[k] * size * exp(-q->depth[k]);
             if (q->lit)
-                out[k] += g->carried[i][k] * exp(-q->sun[k]) * (q->rayleigh[k] * rayleigh + q->aerosol[k] * aerosol);
+                out[k] += g->carried[i][k] * exp(-q->sun[k]) *
+                          (q->rayleigh[k] * rayleigh + q->aerosol[k] * aerosol + q->dust[k] * dust);
         }
         sum += g->promise[i] = promise(v, q, g->carried[i]);
     }
@@ -425,7 +452,7 @@ static void expect_later(const ref_view *v, double later[REF_BANDS]) {
         ref_line_at(&v->tracer->air, &v->line, v->edges[i] + 0.5 * size, &q);
         ref_guide_mean(&v->tracer->guide, q.height01, q.mu_s, mean);
         for (int k = 0; k < REF_BANDS; k++)
-            later[k] += size * exp(-q.depth[k]) * (q.rayleigh[k] + q.aerosol[k]) * mean[k];
+            later[k] += size * exp(-q.depth[k]) * (q.rayleigh[k] + q.aerosol[k] + q.dust[k]) * mean[k];
     }
     if (!v->lit_ground)
         return;

@@ -27,14 +27,19 @@ static uint64_t add_profile(uint64_t h, const ref_profile *p) {
 }
 
 uint64_t ref_state_digest(const ref_atmosphere *a, const ref_job *job, const ref_query *queries, size_t count) {
-    const double numbers[] = {a->bands, a->radius_km, a->top_km, a->ground_km, (double)a->phase, a->g};
+    const double numbers[] = {a->bands, a->radius_km,          a->top_km, a->ground_km, (double)a->phase,
+                              a->g,     (double)a->dust_phase, a->dust_g};
     uint64_t h = add(0xcbf29ce484222325u, numbers, sizeof numbers);
     h = add(h, a->albedo, sizeof a->albedo);
     h = add(h, a->rayleigh_scattering, sizeof a->rayleigh_scattering);
     h = add(h, a->aerosol_scattering, sizeof a->aerosol_scattering);
     h = add(h, a->aerosol_extinction, sizeof a->aerosol_extinction);
     h = add(h, a->ozone_absorption, sizeof a->ozone_absorption);
+    h = add(h, a->rayleigh_absorption, sizeof a->rayleigh_absorption);
+    h = add(h, a->dust_scattering, sizeof a->dust_scattering);
+    h = add(h, a->dust_extinction, sizeof a->dust_extinction);
     h = add_profile(add_profile(add_profile(h, &a->rayleigh), &a->aerosol), &a->ozone);
+    h = add_profile(h, &a->dust);
     h = add(h, &job->seed, sizeof job->seed);
     h = add(h, &job->lit_ground, sizeof job->lit_ground);
     for (size_t i = 0; i < count; i++)
@@ -86,30 +91,38 @@ int ref_state_read(const char *name, uint64_t digest, ref_total *totals, size_t 
     return status;
 }
 
+static void write_rows(FILE *out, uint64_t digest, const ref_total *totals, size_t count) {
+    fprintf(out, FORM " %llx\n", (unsigned long long)digest);
+    for (size_t i = 0; i < count; i++) {
+        const ref_tally *t = &totals[i].tally;
+        if (t->batches == 0)
+            continue;
+        fprintf(out, "%zu %llu", i, (unsigned long long)t->batches);
+        for (int k = 0; k < 2 * REF_BANDS; k++)
+            fprintf(out, " %a", k < REF_BANDS ? t->sum[k] : t->squares[k - REF_BANDS]);
+        fprintf(out, " .\n");
+    }
+}
+
+static int cannot_write(const char *name) {
+    fprintf(stderr, "%s: cannot be written: %s\n", name, strerror(errno));
+    return 1;
+}
+
 int ref_state_write(const char *name, uint64_t digest, const ref_total *totals, size_t count) {
     char temp[4096];
-    if (snprintf(temp, sizeof temp, "%s.part", name) >= (int)sizeof temp)
-        return complain(name, 0, "the name is too long") - 1;
-    FILE *out = fopen(temp, "w");
-    int good = out != NULL;
-    if (good) {
-        fprintf(out, FORM " %llx\n", (unsigned long long)digest);
-        for (size_t i = 0; i < count; i++) {
-            const ref_tally *t = &totals[i].tally;
-            if (t->batches == 0)
-                continue;
-            fprintf(out, "%zu %llu", i, (unsigned long long)t->batches);
-            for (int k = 0; k < 2 * REF_BANDS; k++)
-                fprintf(out, " %a", k < REF_BANDS ? t->sum[k] : t->squares[k - REF_BANDS]);
-            fprintf(out, " .\n");
-        }
-        good = fflush(out) == 0 && fsync(fileno(out)) == 0;
-        good = fclose(out) == 0 && good;
+    if (snprintf(temp, sizeof temp, "%s.part", name) >= (int)sizeof temp) {
+        errno = ENAMETOOLONG;
+        return cannot_write(name);
     }
-    if (good && rename(temp, name) == 0)
+    FILE *out = fopen(temp, "w");
+    if (!out)
+        return cannot_write(name);
+    write_rows(out, digest, totals, count);
+    const int good = !ferror(out) && fflush(out) == 0 && fsync(fileno(out)) == 0;
+    if (fclose(out) == 0 && good && rename(temp, name) == 0)
         return 0;
-    const int why = errno;
+    cannot_write(name);
     remove(temp);
-    fprintf(stderr, "%s: cannot be written: %s\n", name, strerror(why));
     return 1;
 }

@@ -7,7 +7,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { SOURCES = 2 * REF_BANDS, NODES_MAX = 32 };
+enum { SOURCES = 3 * REF_BANDS, NODES_MAX = 32 };
 
 // Gauss-Legendre on [0, 1] by Newton's method on the three-term recurrence.
 static void gauss(int n, double *x, double *weight) {
@@ -54,7 +54,7 @@ static int inlets(const ref_grid *g, double horizon, inlet *in) {
 }
 
 static double *node(const ref_successive *s, double *source, int i, int j) {
-    return source + (size_t)(i * s->grid.suns + j) * (size_t)(s->grid.thetas * s->grid.turns * SOURCES);
+    return source + (size_t)(i * s->grid.suns + j) * (size_t)(s->grid.thetas * s->grid.turns * s->sources);
 }
 
 typedef struct axis {
@@ -82,7 +82,7 @@ static void look_up(const ref_successive *s, const double *source, const ref_poi
     const axis a[4] = {place(q->height01 * (g->heights - 1), g->heights), place(sun_place(g, q->mu_s), g->suns),
                        place(acos(fmax(-1, fmin(1, mu))) / PI * (g->thetas - 1), g->thetas),
                        place(turn / PI * (g->turns - 1), g->turns)};
-    memset(out, 0, SOURCES * sizeof *out);
+    memset(out, 0, SOURCES * sizeof *out); // no dust: the last stay 0
     for (int corner = 0; corner < 16; corner++) {
         double weight = 1;
         int at[4];
@@ -94,9 +94,9 @@ static void look_up(const ref_successive *s, const double *source, const ref_poi
         if (!(weight > 0))
             continue;
         const double *from =
-            source +
-            ((size_t)((at[0] * g->suns + at[1]) * g->thetas + at[2]) * (size_t)g->turns + (size_t)at[3]) * SOURCES;
-        for (int k = 0; k < SOURCES; k++)
+            source + ((size_t)((at[0] * g->suns + at[1]) * g->thetas + at[2]) * (size_t)g->turns + (size_t)at[3]) *
+                         (size_t)s->sources;
+        for (int k = 0; k < s->sources; k++)
             out[k] += weight * from[k];
     }
 }
@@ -115,6 +115,7 @@ static void along(const ref_successive *s, const double *source, const double *g
     const int n = ref_line_cells(air, l, cells, cells, edges);
     const double rayleigh = ref_phase_rayleigh(l->nu);
     const double aerosol = ref_phase_aerosol(air->world.atmosphere, 1 - l->nu, 1 + l->nu);
+    const double dust = ref_phase_dust(air->world.atmosphere, 1 - l->nu, 1 + l->nu);
     memset(out, 0, REF_BANDS * sizeof *out);
     for (int i = 0; i < 2 * n; i++) {
         const double from = edges[i / 2], size = edges[i / 2 + 1] - from;
@@ -126,8 +127,10 @@ static void along(const ref_successive *s, const double *source, const double *g
         if (source)
             look_up(s, source, &q, (l->b + at) / q.radius, l->nu, averages);
         for (int k = 0; k < REF_BANDS; k++) {
-            const double scattered = source ? q.rayleigh[k] * averages[k] + q.aerosol[k] * averages[REF_BANDS + k]
-                                            : (q.rayleigh[k] * rayleigh + q.aerosol[k] * aerosol) * exp(-q.sun[k]);
+            const double scattered =
+                source ? q.rayleigh[k] * averages[k] + q.aerosol[k] * averages[REF_BANDS + k] +
+                             q.dust[k] * averages[2 * REF_BANDS + k]
+                       : (q.rayleigh[k] * rayleigh + q.aerosol[k] * aerosol + q.dust[k] * dust) * exp(-q.sun[k]);
             out[k] += 0.5 * size * exp(-q.depth[k]) * scattered;
         }
     }
@@ -150,22 +153,25 @@ static void along(const ref_successive *s, const double *source, const double *g
 // How light from each inlet is shared among the directions of the grid; rows are scaled so that even light stays even.
 static void make_kernel(const ref_successive *s, const inlet *in, int n, double *kernel) {
     const ref_grid *g = &s->grid;
+    const ref_atmosphere *a = s->air->world.atmosphere;
+    const int kinds = s->sources / REF_BANDS;
     for (int out = 0; out < g->thetas * g->turns; out++) {
         const double theta = PI * (out / g->turns) / (g->thetas - 1), turn = PI * (out % g->turns) / (g->turns - 1);
-        double *row = kernel + (size_t)out * (size_t)(2 * n), sum[2] = {0, 0};
+        double *row = kernel + (size_t)out * (size_t)(kinds * n), sum[3] = {0, 0, 0};
         for (int i = 0; i < n; i++) {
             const double across = sin(theta) * sqrt(fmax(0, 1 - in[i].mu * in[i].mu)), up = cos(theta) * in[i].mu;
-            row[2 * i] = row[2 * i + 1] = 0;
+            double phase[3] = {0, 0, 0};
             for (int side = -1; side <= 1; side += 2) {
                 const double nu = fmax(-1, fmin(1, up + across * cos(turn - side * in[i].turn)));
-                row[2 * i] += 0.5 * in[i].weight * ref_phase_rayleigh(nu);
-                row[2 * i + 1] += 0.5 * in[i].weight * ref_phase_aerosol(s->air->world.atmosphere, 1 - nu, 1 + nu);
+                phase[0] += ref_phase_rayleigh(nu);
+                phase[1] += ref_phase_aerosol(a, 1 - nu, 1 + nu);
+                phase[2] += ref_phase_dust(a, 1 - nu, 1 + nu);
             }
-            sum[0] += row[2 * i];
-            sum[1] += row[2 * i + 1];
+            for (int kind = 0; kind < kinds; kind++)
+                sum[kind] += row[kinds * i + kind] = 0.5 * in[i].weight * phase[kind];
         }
-        for (int i = 0; i < 2 * n; i++)
-            row[i] /= sum[i % 2];
+        for (int i = 0; i < kinds * n; i++)
+            row[i] /= sum[i % kinds];
     }
 }
 
@@ -196,14 +202,14 @@ static void gather(const ref_successive *s, const work *w, int n, int i, int j, 
             irradiance[k] += fmax(0, in->mu) * in->weight * light[k];
     }
     double *to = node(s, next, i, j);
-    for (int out = 0; out < g->thetas * g->turns; out++, to += SOURCES) {
-        const double *row = w->kernel + (size_t)out * (size_t)(2 * n);
-        memset(to, 0, SOURCES * sizeof *to);
+    const int kinds = s->sources / REF_BANDS;
+    memset(to, 0, (size_t)(g->thetas * g->turns * s->sources) * sizeof *to);
+    for (int out = 0; out < g->thetas * g->turns; out++, to += s->sources) {
+        const double *row = w->kernel + (size_t)out * (size_t)(kinds * n);
         for (int d = 0; d < n; d++)
-            for (int k = 0; k < REF_BANDS; k++) {
-                to[k] += row[2 * d] * w->radiance[d * REF_BANDS + k];
-                to[REF_BANDS + k] += row[2 * d + 1] * w->radiance[d * REF_BANDS + k];
-            }
+            for (int kind = 0; kind < kinds; kind++)
+                for (int k = 0; k < REF_BANDS; k++)
+                    to[kind * REF_BANDS + k] += row[kinds * d + kind] * w->radiance[d * REF_BANDS + k];
     }
 }
 
@@ -263,12 +269,14 @@ static void solve(ref_successive *s, const work *w, double *a, double *b, double
 int ref_successive_make(ref_successive *s, const ref_air *air, const ref_grid *grid) {
     const size_t outlets = (size_t)(grid->thetas * grid->turns),
                  inlets_all = (size_t)(2 * grid->polars * grid->azimuths);
-    const size_t n = (size_t)(grid->heights * grid->suns) * outlets * SOURCES, m = (size_t)(grid->suns * REF_BANDS);
-    *s = (ref_successive){.air = air, .grid = *grid};
+    const int sources = (air->dusty ? 3 : 2) * REF_BANDS;
+    const size_t n = (size_t)(grid->heights * grid->suns) * outlets * (size_t)sources,
+                 m = (size_t)(grid->suns * REF_BANDS);
+    *s = (ref_successive){.air = air, .grid = *grid, .sources = sources};
     s->source = calloc(n, sizeof(double));
     s->ground = calloc(m, sizeof(double));
     double *orders = calloc(2 * n + 2 * m, sizeof(double));
-    const work w = {malloc(inlets_all * sizeof(inlet)), malloc(outlets * 2 * inlets_all * sizeof(double)),
+    const work w = {malloc(inlets_all * sizeof(inlet)), malloc(outlets * 3 * inlets_all * sizeof(double)),
                     malloc(inlets_all * REF_BANDS * sizeof(double))};
     const int good = s->source && s->ground && orders && w.in && w.kernel && w.radiance;
     if (good)

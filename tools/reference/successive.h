@@ -22,9 +22,10 @@ typedef struct ref_grid {
 typedef struct ref_successive {
     const ref_air *air;
     ref_grid grid;
-    double *
-        source; ///< [heights][suns][thetas][turns][2 REF_BANDS]: mean of what comes in over the Rayleigh, aerosol phase
+    double *source; ///< [heights][suns][thetas][turns][sources]: mean of what comes in over the phase of Rayleigh,
+                    ///< aerosol, dust
     double *ground; ///< [suns][REF_BANDS] diffuse irradiance
+    int sources;    ///< bands times 2, with dust 3
     int orders;     ///< used
     double rest;    ///< last order over all, largest, before the tail was added
 } ref_successive;

@@ -53,7 +53,7 @@ int all_orders_build(all_orders *out, const char *command, const skv_model *mode
     if (out->table && out->table->model == model->hash && out->ground_km <= ground_km && out->ground_km >= ground_km)
         return 0;
     all_orders_free(out);
-    if (skv_table_spec_kind(&spec, kind) != SKV_OK)
+    if (skv_table_spec_for(&spec, model, kind) != SKV_OK)
         return refuse(command, SKV_ERR_UNSUPPORTED);
     spec.ground_km = ground_km;
     const size_t size = skv_table_size(&spec, model->bands);
