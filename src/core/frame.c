@@ -132,7 +132,7 @@ static void skv_frame_breaks(skv_frame *f) {
         skv_frame_break(f, f->model->break_km[i] - f->ground_km, 0);
     for (int s = 0; s < SKV_SCATTERERS; s++) {
         const skv_species *sp = &f->model->species[s];
-        if (f->species[s].kind == SKV_PROFILE_NONE)
+        if (f->species[s].kind == SKV_PROFILE_NONE || sp->column == SKV_COLUMN_KNOTS)
             continue;
         const float scale = sp->scale_height_km, dense = f->map_per_km[s];
         // Optical depth of half the horizontal ray at the ground.
