@@ -143,6 +143,7 @@ typedef struct skv_column_table {
 /// threads and copied freely (it holds no pointers).
 typedef struct skv_model {
     uint32_t layout; ///< which config.h selection built it
+    uint32_t hash;   ///< of what scattering depends on: planet, albedo, species; not of the light
     int32_t bands;
     float radius_km;
     float top_km;

@@ -53,6 +53,10 @@
 #ifndef SKV_TERM_GROUND
 #define SKV_TERM_GROUND 1
 #endif
+/// Light scattered more than once: tables, grid, diffuse irradiance.
+#ifndef SKV_TERM_DIFFUSE
+#define SKV_TERM_DIFFUSE 1
+#endif
 /// Transmittance as a second output of skv_radiance().
 #ifndef SKV_OUT_TRANSMITTANCE
 #define SKV_OUT_TRANSMITTANCE 1

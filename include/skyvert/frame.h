@@ -82,6 +82,22 @@ typedef struct skv_frame_limits {
     float exp2_floor; ///< -126
 } skv_frame_limits;
 
+struct skv_table;
+
+/// Derived: what light scattered more than once needs (src/core/diffuse.h); table.h.
+typedef struct skv_frame_diffuse {
+    const struct skv_table *table;       ///< NULL: single scattering only
+    const float *grid;                   ///< NULL: integrated ray by ray
+    int32_t samples;                     ///< nodes per leg
+    int32_t only;                        ///< 1: without light scattered once
+    int32_t kept;                        ///< the species whose aureole the table keeps
+    float inv_span;                      ///< of the table's rows, 1/km
+    float offset_km;                     ///< the frame's ground above the table's
+    float moment[SKV_SCATTERERS][4];     ///< of the scatterers' phase functions, degrees 1 to 4
+    float aureole[SKV_SCATTERERS];       ///< g of light that they scatter out of the aureole
+    float toward_enu[SKV_LIGHTS_MAX][3]; ///< centre of the aureole
+} skv_frame_diffuse;
+
 /// Most altitudes at which legs are cut.
 #define SKV_FRAME_BREAKS 16
 
@@ -109,6 +125,7 @@ typedef struct skv_frame {
     /// Per unit of relative density (exponential species: of that at the ground); extinction times log2(e).
     float scattering_per_km[SKV_SCATTERERS][4];
     float extinction_log2e_per_km[SKV_SPECIES][4];
+    skv_frame_diffuse diffuse;
 } skv_frame;
 
 /// Prepares a frame.

@@ -15,6 +15,8 @@ typedef enum skv_status {
     SKV_ERR_SIZE = -4,        ///< the caller's buffer is too small
     SKV_ERR_UNSUPPORTED = -5, ///< left out at compile time (config.h), or no such choice
     SKV_ERR_LAYOUT = -6,      ///< the struct was not built, or was built with another config.h selection
+    SKV_ERR_DAMAGED = -7,     ///< stored bytes were changed
+    SKV_ERR_MODEL = -8,       ///< a table was built from another model
 } skv_status;
 
 #ifdef __cplusplus

@@ -273,4 +273,13 @@ SKV_INLINE void skv_columns_light(const skv_frame *frame, unsigned has, const sk
         SKV_EACH_LANE(l) out->of[s].v[l] = skv_maxf(out->of[s].v[l], 0.0f);
 }
 
+/// Optical depth of columns times log2(e).
+SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, const skv_columns *c, int band, int l) {
+    float tau = 0.0f;
+    SKV_EACH_SPECIES(s)
+    if (SKV_PRESENT(has, s))
+        tau += frame->extinction_log2e_per_km[s][band] * c->of[s].v[l];
+    return tau;
+}
+
 #endif

@@ -27,6 +27,15 @@
 #define SKV_EACH_SPECIES(s)   for (int s = 0; s < SKV_SPECIES; s++)
 #endif
 
+/// A loop over bands or other small numbers, in the same way.
+#if defined(__clang__)
+#define SKV_EACH_OF(i, n) for (int i = 0; i < (n); i++)
+#elif defined(__GNUC__)
+#define SKV_EACH_OF(i, n) _Pragma("GCC unroll 1") for (int i = 0; i < (n); i++)
+#else
+#define SKV_EACH_OF(i, n) for (int i = 0; i < (n); i++)
+#endif
+
 /// One value per lane, aligned for the widest vectors in use.
 #if defined(__GNUC__)
 typedef struct __attribute__((aligned(SKV_LANES >= 8 ? 32 : 4 * SKV_LANES < 16 ? 4 * SKV_LANES : 16))) skv_lanes {

@@ -234,6 +234,42 @@ static void skv_breaks(skv_model *m, const skv_profile *p) {
     }
 }
 
+static uint32_t skv_hash(uint32_t hash, const float *x, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        hash = (hash ^ skv_bits(x[i])) * 16777619u; // [FNV] over words
+    return hash;
+}
+
+/// Padding and what config.h leaves out do not count: a table that a workstation built fits a model on a small target.
+static uint32_t skv_model_hash(const skv_model *m) {
+    uint32_t hash = 2166136261u ^ (uint32_t)m->bands;
+    const float planet[2] = {m->radius_km, m->top_km};
+    hash = skv_hash(hash, planet, 2);
+    hash = skv_hash(hash, m->albedo, 4);
+    hash = skv_hash(hash, m->scattering_per_km[0], SKV_SCATTERERS * 4);
+    hash = skv_hash(hash, m->extinction_per_km[0], SKV_SPECIES * 4);
+    for (int s = 0; s < SKV_SPECIES; s++) {
+        const skv_species *const sp = &m->species[s];
+        const float of[] = {(float)sp->kind, sp->scale_height_km, sp->background, sp->p0, sp->p1, sp->p2};
+        hash = skv_hash(hash, of, sizeof of / sizeof of[0]);
+    }
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        const float phase[2] = {(float)m->phase[s], m->g[s]};
+        hash = skv_hash(hash, phase, 2);
+    }
+#if SKV_TERM_OZONE
+    hash = m->species[SKV_OZONE].kind == SKV_PROFILE_TABLE ? skv_hash(hash, m->ozone_density, SKV_DENSITY_ROWS) : hash;
+#endif
+#if SKV_PROFILE_TABULATED
+    for (int s = 0; s < 2 + SKV_TERM_DUST; s++)
+        if (m->species[s].column == SKV_COLUMN_KNOTS)
+            hash = skv_hash(hash, m->column[s].column, 3 * SKV_KNOTS_MAX);
+        else if (m->species[s].kind == SKV_PROFILE_TABLE)
+            hash = skv_hash(hash, m->density[s], SKV_DENSITY_ROWS);
+#endif
+    return hash;
+}
+
 skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
     if (!model || !a)
         return SKV_ERR_NULL;
@@ -269,6 +305,7 @@ skv_status skv_model_build(skv_model *model, const skv_atmosphere *a) {
     skv_breaks(model, &a->dust);
     skv_breaks(model, &a->rayleigh);
     skv_tables(model, profile);
+    model->hash = skv_model_hash(model);
     model->layout = SKV_LAYOUT;
     return SKV_OK;
 }

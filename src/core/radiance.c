@@ -2,11 +2,11 @@
 
 #include <string.h>
 
-#include "core/ends.h"
 #include "core/gauss.h"
 #include "core/midpoint.h"
 #include "core/shadow.h"
 #include "core/slices.h"
+#include "core/stages.h"
 
 /// Written one by one: a call of memset() costs more than these few bytes.
 SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t n) {
@@ -21,29 +21,6 @@ SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t
 }
 
 #if SKV_RULE_GAUSS_EXP
-/// One leg of each ray as the light sees it.
-SKV_INLINE void skv_legs_fill(const skv_frame *frame, unsigned has, int light, const skv_block *block, int part,
-                              const skv_block_light *toward, const skv_columns *k, skv_legs *leg) {
-    const float rms0 = (frame->radius_km + frame->height_km) * frame->light[light].mu_s;
-    SKV_EACH_LANE(l) {
-        const float dir = block->leg[part].dir.v[l];
-        leg->h_km.v[l] = block->leg[part].h_km.v[l];
-        leg->rm.v[l] = block->leg[part].rm.v[l];
-        leg->rms.v[l] = rms0 + block->leg[part].from_km.v[l] * toward->nu.v[l];
-        leg->nu.v[l] = dir * toward->nu.v[l];
-        leg->a.v[l] = block->leg[part].a.v[l];
-        leg->b.v[l] = leg->end.v[l] = block->leg[part].b.v[l];
-        leg->p_km.v[l] = block->p_km.v[l];
-        leg->sigma.v[l] = -dir;
-    }
-    SKV_EACH_SCATTERER(s)
-    if (SKV_PRESENT(has, s))
-        leg->phase[s] = toward->phase[s];
-    SKV_EACH_SPECIES(s)
-    if (SKV_PRESENT(has, s))
-        leg->k.of[s] = k->of[s];
-}
-
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
 /// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
 /// few rays have, does the geometry again.
@@ -207,10 +184,10 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
     if (sky->transmittance)
         return SKV_ERR_UNSUPPORTED;
 #endif
-    if (frame->lights == 0 || frame->quality.rule != SKV_GAUSS_EXP)
+    if (frame->lights == 0 || frame->quality.rule != SKV_GAUSS_EXP || frame->diffuse.only)
         skv_clear(sky, bands, 0, n);
     int bad = 0;
-    for (int light = 0; light < frame->lights; light++) {
+    for (int light = 0; light < frame->lights && !frame->diffuse.only; light++) {
 #if SKV_RULE_GAUSS_EXP
         if (frame->quality.rule == SKV_GAUSS_EXP)
             bad |= skv_rule_gauss(frame, light, n, rays, sky);
@@ -220,6 +197,9 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
             bad |= skv_rule_midpoint(frame, light, n, rays, sky);
 #endif
     }
+    const int direct = frame->diffuse.table && (!frame->diffuse.grid || rays->length_km);
+    for (int light = 0; light < frame->lights && direct; light++)
+        skv_diffuse_add(frame, light, n, rays, sky);
     bad |= skv_ends(frame, n, rays, sky);
     return bad ? SKV_ERR_DIRECTION : SKV_OK;
 }

@@ -5,9 +5,7 @@
 #ifndef SKV_CORE_SLICES_H
 #define SKV_CORE_SLICES_H
 
-#include "core/gauss.h"
-
-#if SKV_RULE_GAUSS_EXP
+#include "core/legs.h"
 
 /// Optical depths from the observer where a leg in fog is cut, and from which on it is.
 #define SKV_FOG_NEAR 6.0f
@@ -46,7 +44,5 @@ SKV_INLINE void skv_slice_end(const skv_frame *frame, skv_legs *leg, int i, cons
         leg->b.v[l] = skv_minf(skv_maxf(s, leg->a.v[l]), last->v[l]);
     }
 }
-
-#endif
 
 #endif

@@ -32,6 +32,8 @@ void ref_world_make(ref_world *world, const ref_atmosphere *atmosphere, int node
 double ref_height(const ref_world *world, double e);
 /// Adds the columns of a stretch that starts at e with r mu = b and has that length; b of any sign.
 void ref_stretch(const ref_world *world, double e, double b, double length, double column[REF_SPECIES]);
+/// Sine and cosine in degrees, exact at the multiples of 90.
+void ref_sincos_deg(double deg, double *sine, double *cosine);
 /// Distance from e to the top, upward or past the tangent point.
 double ref_to_top(const ref_world *world, double e, double b);
 

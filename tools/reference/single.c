@@ -66,7 +66,7 @@ double ref_phase_dust(const ref_atmosphere *a, double nu_minus, double nu_plus) 
 }
 
 // Sine and cosine in degrees, exact at the multiples of 90.
-static void sincos_deg(double deg, double *sine, double *cosine) {
+void ref_sincos_deg(double deg, double *sine, double *cosine) {
     const double turn = fmod(deg, 360);
     const double quarter = floor(turn / 90 + 0.5);
     const double r = (turn - 90 * quarter) * (PI / 180);
@@ -80,11 +80,11 @@ static void sincos_deg(double deg, double *sine, double *cosine) {
 ref_ray ref_ray_from_angles(double height_km, double sun_deg, double view_deg, double azimuth_deg) {
     ref_ray ray = {.height_km = height_km, .length_km = INFINITY};
     double sin_s, sin_v, half_sin, half_cos, apart, unused, sum_cos;
-    sincos_deg(sun_deg, &sin_s, &ray.mu_s);
-    sincos_deg(view_deg, &sin_v, &ray.mu);
-    sincos_deg(0.5 * azimuth_deg, &half_sin, &half_cos);
-    sincos_deg(0.5 * (view_deg - sun_deg), &apart, &unused);
-    sincos_deg(0.5 * (view_deg + sun_deg), &unused, &sum_cos);
+    ref_sincos_deg(sun_deg, &sin_s, &ray.mu_s);
+    ref_sincos_deg(view_deg, &sin_v, &ray.mu);
+    ref_sincos_deg(0.5 * azimuth_deg, &half_sin, &half_cos);
+    ref_sincos_deg(0.5 * (view_deg - sun_deg), &apart, &unused);
+    ref_sincos_deg(0.5 * (view_deg + sun_deg), &unused, &sum_cos);
     (void)unused;
     // 1 - nu = 2 sin^2((v-s)/2) + 2 sin v sin s sin^2(az/2), and 1 + nu likewise: no cancellation.
     ray.nu_minus = 2 * apart * apart + 2 * sin_v * sin_s * half_sin * half_sin;

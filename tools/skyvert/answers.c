@@ -36,6 +36,7 @@ void sin_cos_deg(double degrees, double *sine, double *cosine) {
 typedef struct job {
     const query_list *queries;
     const skv_model *model;
+    const skv_table *table; ///< NULL: light scattered once
     const skv_quality *quality;
     size_t *order;    ///< [rows] places of the queries, those of a frame side by side
     float *direction; ///< [rows][3] in that order
@@ -82,6 +83,8 @@ static skv_status evaluate_frame(const job *j, size_t first, size_t end) {
     skv_status status = skv_light_sun(&light, j->model, sun);
     if (status == SKV_OK)
         status = skv_frame_begin(&frame, j->model, j->quality, (float)q->value[QUERY_ALTITUDE], 0, &light, 1);
+    if (status == SKV_OK)
+        status = skv_frame_table(&frame, j->table);
     const skv_rays rays = {.direction_enu = j->direction + 3 * first};
     const skv_sky sky = {.radiance = j->radiance + (size_t)j->model->bands * first};
     return status == SKV_OK ? skv_radiance(&frame, end - first, &rays, &sky) : status;
@@ -140,12 +143,13 @@ static int run(job *j, size_t *place, const atmosphere_file *file) {
     return result ? result : print(j, place, file);
 }
 
-int answers_write(const query_list *queries, const skv_model *model, const skv_quality *quality,
+int answers_write(const query_list *queries, const skv_model *model, const skv_table *table, const skv_quality *quality,
                   const atmosphere_file *file) {
     const size_t n = queries->rows + 1; // malloc(0) may be NULL
     size_t *const place = calloc(n, sizeof *place);
     job j = {.queries = queries,
              .model = model,
+             .table = table,
              .quality = quality,
              .order = calloc(n, sizeof *j.order),
              .direction = calloc(n, 3 * sizeof *j.direction),

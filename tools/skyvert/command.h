@@ -26,6 +26,7 @@ int cmd_sun(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_track(int argc, char **argv);
 int cmd_dome(int argc, char **argv);
+int cmd_bake(int argc, char **argv);
 
 // --- errors.c: one line to stderr, as given (start it with "skyvert NAME: " or "file:line: "), control bytes masked
 // ---

@@ -61,7 +61,7 @@ static const char help[] =
 // clang-format on
 
 static int print_help(void) {
-    printf("%s%s\n%s", help, moment_options_help, sky_options_help);
+    printf("%s%s\n%s\n%s", help, moment_options_help, light_options_help, sky_options_help);
     return output_finish_stdout();
 }
 
@@ -249,6 +249,13 @@ static int write_mesh(const mesh *from, const dome_options *options, const momen
     return output_commit(&out);
 }
 
+static scene_plan plan_of(const dome_options *options) {
+    const int rings = options->rings + options->rings_below;
+    const double turn = 6.28318530717958648, spacing = turn / fmin(4.0 * options->rings, options->azimuths);
+    return (scene_plan){.rays = (size_t)rings * (size_t)options->azimuths,
+                        .sample_rad = (float)fmin(spacing, (double)SKV_DISC_SAMPLE_MAX)};
+}
+
 static int check(dome_options *options, int argc, char **argv, moment *now) {
     int status = option_no_more(NAME, argc, argv);
     if (status == 0 && !options->out)
@@ -262,6 +269,7 @@ int cmd_dome(int argc, char **argv) {
     static dome_options options = {.kind = 1, .rings = 24, .azimuths = 48, .exposure_auto = true};
     static scene view;
     sky_options_begin(&options.sky, NAME);
+    options.sky.light.discs = CHOICE_OFF; // between vertices they would be smeared
     moment_options_begin(&options.when, NAME);
     int status = 0;
     for (int c; status == 0 && (c = getopt_long(argc, argv, ":h", long_options, NULL)) != -1;) {
@@ -275,15 +283,18 @@ int cmd_dome(int argc, char **argv) {
     if (status != 0)
         return status;
     mesh out = {0};
-    status = scene_begin(&view, &options.sky, &now);
+    const scene_plan plan = plan_of(&options);
+    view.progress = true;
+    status = scene_begin(&view, &options.sky, &now, &plan);
     if (status == 0)
         status = mesh_build(&out, &options, &view, &now);
     if (status == 0)
         status = write_mesh(&out, &options, &now);
-    char text[120];
+    char text[400];
     if (status == 0 && options.sky.timing)
         fprintf(stderr, "%s\n", scene_timing(&view, text, sizeof text));
     mesh_end(&out);
+    scene_end(&view);
     place_end();
     sky_options_free(&options.sky);
     return status;

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "skyvert/moonlight.h"
+
 // clang-format off
 const char moment_options_help[] =
     "Where and when:\n"
@@ -13,7 +15,9 @@ const char moment_options_help[] =
     "  --utc TIME             2021-08-17T04:30:00Z\n"
     "  --sun-zenith-deg Z --sun-azimuth-deg A   place the sun by hand: 0 to 180 from the zenith, clockwise\n"
     "                         from north (default 180); then neither position nor time is needed\n"
-    "The sun is where geometry puts it: refraction is not applied.\n";
+    "  --moon-zenith-deg Z --moon-azimuth-deg A   place the moon by hand (azimuth 0 without it), as far from the\n"
+    "                         Earth as it is on average; its phase follows from where the sun stands\n"
+    "Sun and moon are where geometry puts them: refraction is not applied.\n";
 // clang-format on
 
 void moment_options_begin(moment_options *options, const char *command) {
@@ -60,6 +64,12 @@ int moment_options_take(moment_options *options, int option, const char *value) 
     case OPT_SUN_AZIMUTH:
         return take_number(command, "--sun-azimuth-deg", value, -360.0, 360.0, &options->sun_azimuth_deg,
                            &options->has_sun_azimuth);
+    case OPT_MOON_ZENITH:
+        return take_number(command, "--moon-zenith-deg", value, 0.0, 180.0, &options->moon_zenith_deg,
+                           &options->has_moon_zenith);
+    case OPT_MOON_AZIMUTH:
+        return take_number(command, "--moon-azimuth-deg", value, -360.0, 360.0, &options->moon_azimuth_deg,
+                           &options->has_moon_azimuth);
     default:
         return -1;
     }
@@ -90,18 +100,46 @@ static int settle_height(const moment_options *options, double ground_m, moment 
     return moment_set_height(&out->at, options->height_m, (height_datum)options->datum);
 }
 
-static void place_sun(moment *now, double zenith_deg, double azimuth_deg) {
-    const double degree = 3.14159265358979323846 / 180.0;
+static const double degree = 3.14159265358979323846 / 180.0;
+
+static void direction_of(double zenith_deg, double azimuth_deg, float enu[3]) {
     const double z = zenith_deg * degree, a = azimuth_deg * degree;
-    now->sun_azimuth_deg = azimuth_deg < 0.0 ? azimuth_deg + 360.0 : azimuth_deg;
-    now->sun_elevation_deg = 90.0 - zenith_deg;
-    now->sun_distance_au = 1.0;
-    now->sun_enu[0] = (float)(sin(z) * sin(a));
-    now->sun_enu[1] = (float)(sin(z) * cos(a));
-    now->sun_enu[2] = (float)cos(z);
+    enu[0] = (float)(sin(z) * sin(a));
+    enu[1] = (float)(sin(z) * cos(a));
+    enu[2] = (float)cos(z);
 }
 
-int moment_find_sun(moment *now, const char *command) {
+static double positive_azimuth(double azimuth_deg) {
+    return azimuth_deg < 0.0 ? azimuth_deg + 360.0 : azimuth_deg;
+}
+
+static void place_sun(moment *now, double zenith_deg, double azimuth_deg) {
+    now->sun_azimuth_deg = positive_azimuth(azimuth_deg);
+    now->sun_elevation_deg = 90.0 - zenith_deg;
+    now->sun_distance_au = 1.0;
+    direction_of(zenith_deg, azimuth_deg, now->sun_enu);
+}
+
+/// At its mean distance; the angle sun-moon-observer from the triangle of the three.
+static void place_moon(moment *now, double zenith_deg, double azimuth_deg) {
+    const double distance_km = 384400.0, au_km = 149597870.7;
+    skv_moon *const moon = &now->moon;
+    direction_of(zenith_deg, azimuth_deg, moon->direction_enu);
+    double cosine = 0.0;
+    for (int i = 0; i < 3; i++)
+        cosine += (double)moon->direction_enu[i] * (double)now->sun_enu[i];
+    cosine = fmax(-1.0, fmin(1.0, cosine));
+    const double sun_km = au_km * now->sun_distance_au;
+    const double phase = atan2(sun_km * sqrt(1.0 - cosine * cosine), distance_km - sun_km * cosine);
+    moon->azimuth_deg = (float)positive_azimuth(azimuth_deg);
+    moon->elevation_deg = (float)(90.0 - zenith_deg);
+    moon->distance_km = (float)distance_km;
+    moon->phase_angle_deg = (float)(phase / degree);
+    moon->illuminated_fraction = (float)(0.5 + 0.5 * cos(phase));
+    now->has_moon = true;
+}
+
+int moment_find_lights(moment *now, const char *command) {
     const skv_utc utc = utc_to_skv(&now->utc);
     const skv_position position = place_to_skv(&now->at);
     skv_sun sun;
@@ -111,7 +149,23 @@ int moment_find_sun(moment *now, const char *command) {
     now->sun_azimuth_deg = (double)sun.azimuth_deg;
     now->sun_elevation_deg = (double)sun.elevation_deg;
     now->sun_distance_au = (double)sun.distance_au;
+    now->has_moon = skv_moon_at(&now->moon, &utc, &position) == SKV_OK && // not from beside it
+                    now->moon.distance_km > 3000.0f && now->moon.distance_km < 1e7f;
+    if (now->has_moon)
+        now->moon_side = skv_moon_side(now->moon.direction_enu, now->sun_enu, position.lat_deg);
     return 0;
+}
+
+static int settle_sun(const moment_options *options, moment *out) {
+    if (options->has_sun_zenith) {
+        place_sun(out, options->sun_zenith_deg, options->sun_azimuth_deg);
+        return 0;
+    }
+    if (!out->has_position)
+        return fail_usage("skyvert %s: where? --position, or --lat and --lon, or --sun-zenith-deg", options->command);
+    if (!out->has_utc)
+        return fail_usage("skyvert %s: when? --utc, or --sun-zenith-deg", options->command);
+    return moment_find_lights(out, options->command);
 }
 
 int moment_options_finish(const moment_options *options, double ground_m, moment *out) {
@@ -125,13 +179,12 @@ int moment_options_finish(const moment_options *options, double ground_m, moment
         return status;
     if (options->has_sun_azimuth && !options->has_sun_zenith)
         return fail_usage("skyvert %s: --sun-azimuth-deg goes with --sun-zenith-deg", options->command);
-    if (options->has_sun_zenith) {
-        place_sun(out, options->sun_zenith_deg, options->sun_azimuth_deg);
-        return 0;
+    if (options->has_moon_azimuth && !options->has_moon_zenith)
+        return fail_usage("skyvert %s: --moon-azimuth-deg goes with --moon-zenith-deg", options->command);
+    status = settle_sun(options, out);
+    if (status == 0 && options->has_moon_zenith) {
+        out->moon_side = 0;
+        place_moon(out, options->moon_zenith_deg, options->moon_azimuth_deg);
     }
-    if (!out->has_position)
-        return fail_usage("skyvert %s: where? --position, or --lat and --lon, or --sun-zenith-deg", options->command);
-    if (!out->has_utc)
-        return fail_usage("skyvert %s: when? --utc, or --sun-zenith-deg", options->command);
-    return moment_find_sun(out, options->command);
+    return status;
 }

@@ -80,6 +80,14 @@ static bool render_rows(picture *image, scene *view, int n, row *line, bool prog
     return true;
 }
 
+scene_plan picture_plan(const picture_options *options) {
+    const size_t pixels = (size_t)options->map.width * (size_t)options->map.height;
+    const int n = options->supersample;
+    const double spacing = projection_spacing(&options->map) / n;
+    return (scene_plan){.rays = pixels * (size_t)(n * n),
+                        .sample_rad = (float)fmin(spacing, (double)SKV_DISC_SAMPLE_MAX)};
+}
+
 int picture_render(picture *image, const picture_options *options, scene *view, const moment *now, bool progress) {
     row line = {0};
     *image = (picture){.map = options->map, .channels = options->map.kind == PROJECTION_FISHEYE ? 4 : 3};
@@ -112,58 +120,74 @@ void picture_free(picture *image) {
 
 // ---- exposure
 
-/// Mean of log luminance of what is at least a thousandth as bright as the brightest.
-typedef struct log_mean {
-    double floor, sum, weight;
-} log_mean;
+/// How much of a picture has which luminance: steps of 1/16 of a power of two from 2^-64 to 2^64.
+enum { STEPS = 16, LOWEST = -64, STOPS = 128 };
+typedef struct histogram {
+    double weight[STEPS * STOPS];
+    double all;
+} histogram;
 
-static void log_mean_add(log_mean *mean, double luminance, double weight) {
-    if (luminance > mean->floor && weight > 0.0) {
-        mean->sum += weight * log(luminance);
-        mean->weight += weight;
-    }
+static void histogram_add(histogram *h, double luminance, double weight) {
+    if (!(luminance > 0.0 && weight > 0.0))
+        return;
+    const double step = (log2(luminance) - LOWEST) * STEPS;
+    h->weight[step < 0.0 ? 0 : step < STEPS * STOPS ? (int)step : STEPS * STOPS - 1] += weight;
+    h->all += weight;
 }
 
-/// k with 1 - exp(-k L) = EXPOSURE_KEY at the mean; 1 where all is black.
-static double exposure_of(const log_mean *mean) {
-    return mean->weight > 0.0 ? -log(1.0 - EXPOSURE_KEY) / exp(mean->sum / mean->weight) : 1.0;
+/// Luminance that all but the brightest hundredth stays below.
+static int brightest(const histogram *h) {
+    double above = 0.0;
+    int i = STEPS * STOPS - 1;
+    while (i > 0 && above + h->weight[i] <= 0.01 * h->all)
+        above += h->weight[i--];
+    return i;
+}
+
+/// exp of the mean of log luminance from 1/1000 of the brightest on; the brightest hundredth counts as no brighter
+/// than the rest.
+static double log_mean(const histogram *h) {
+    const int top = brightest(h), floor_step = top - 10 * STEPS;
+    double sum = 0.0, weight = 0.0;
+    for (int i = floor_step > 0 ? floor_step : 0; i < STEPS * STOPS; i++) {
+        sum += h->weight[i] * ((i < top ? i : top) + 0.5);
+        weight += h->weight[i];
+    }
+    return weight > 0.0 ? exp2(sum / weight / STEPS + LOWEST) : 0.0;
+}
+
+/// k with 1 - exp(-k L) = EXPOSURE_KEY at the brightness of sky and ground, each weighed by its light; 1 where all is
+/// black.
+static double exposure_of(const histogram part[2]) {
+    double sum = 0.0, light = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double mean = log_mean(&part[i]);
+        light += part[i].all * mean;
+        sum += part[i].all * mean * mean;
+    }
+    return sum > 0.0 ? -log(1.0 - EXPOSURE_KEY) * light / sum : 1.0;
 }
 
 double colours_auto_exposure(const float *rgb, size_t n, size_t channels, const float *weight) {
-    double brightest = 0.0;
+    histogram part[2] = {{{0.0}, 0.0}, {{0.0}, 0.0}};
     for (size_t i = 0; i < n; i++)
-        brightest = fmax(brightest, luminance_of(rgb + i * channels));
-    log_mean mean = {.floor = 1e-3 * brightest};
-    for (size_t i = 0; i < n; i++)
-        log_mean_add(&mean, luminance_of(rgb + i * channels), weight ? (double)weight[i] : 1.0);
-    return exposure_of(&mean);
-}
-
-/// Solid angle that a pixel counts with; 0 below the horizon and where it is not wholly covered.
-static float pixel_weight(const picture *image, int x, int y, bool sky_only) {
-    float d[3];
-    if (projection_direction(&image->map, x, y, d) < 1.0)
-        return 0.0f;
-    if (sky_only && (double)d[2] < sin(image->horizon_deg * (3.14159265358979323846 / 180.0)))
-        return 0.0f;
-    return (float)projection_weight(&image->map, x, y);
+        histogram_add(&part[0], luminance_of(rgb + i * channels), weight ? (double)weight[i] : 1.0);
+    return exposure_of(part);
 }
 
 double picture_auto_exposure(const picture *image) {
-    const size_t pixels = (size_t)image->map.width * (size_t)image->map.height;
-    float *weight = malloc(pixels * sizeof *weight);
-    if (!weight)
-        return 1.0;
-    double sum = 0.0;
-    for (int sky_only = 1; sky_only >= 0 && !(sum > 0.0); sky_only--)
-        for (size_t i = 0; i < pixels; i++) {
-            weight[i] =
-                pixel_weight(image, (int)(i % (size_t)image->map.width), (int)(i / (size_t)image->map.width), sky_only);
-            sum += (double)weight[i];
+    const double lowest = sin(image->horizon_deg * (3.14159265358979323846 / 180.0));
+    histogram part[2] = {{{0.0}, 0.0}, {{0.0}, 0.0}};
+    for (int y = 0; y < image->map.height; y++)
+        for (int x = 0; x < image->map.width; x++) {
+            const size_t i = (size_t)y * (size_t)image->map.width + (size_t)x;
+            float d[3];
+            if (projection_direction(&image->map, x, y, d) < 1.0)
+                continue; // not wholly covered
+            histogram_add(&part[(double)d[2] < lowest], luminance_of(image->pixels + i * (size_t)image->channels),
+                          projection_weight(&image->map, x, y));
         }
-    const double k = colours_auto_exposure(image->pixels, pixels, (size_t)image->channels, weight);
-    free(weight);
-    return k;
+    return exposure_of(part);
 }
 
 // ---- for the eye

@@ -63,12 +63,17 @@ typedef struct picture {
     double horizon_deg; ///< below it is ground
 } picture;
 
+/// What the scene needs to know of a picture.
+scene_plan picture_plan(const picture_options *options);
+
 /// Renders. @param progress  whether to show a bar. @return 0, or a status after an error line; then nothing to free.
 int picture_render(picture *image, const picture_options *options, scene *view, const moment *now, bool progress);
 void picture_free(picture *image);
 
-/// Exposure k for 1 - exp(-k L): brings the average of log luminance (over solid angle; above the horizon where any of
-/// that is in the picture; pixels under 1/1000 of the brightest left out) to `EXPOSURE_KEY` of white.
+/// Exposure k for 1 - exp(-k L): brings the picture's brightness to `EXPOSURE_KEY` of white. That is the average of log
+/// luminance (over solid angle) of what lies above the horizon and of what lies below it, each weighed by its light:
+/// the brighter of the two counts most. Discs, the brightest hundredth, and what is under 1/1000 of the rest are left
+/// out.
 double picture_auto_exposure(const picture *image);
 #define EXPOSURE_KEY 0.32
 

@@ -23,12 +23,12 @@ const char picture_options_help[] =
     "  --elevation-deg E      perspective: of the centre, -90 to 90 (default 0)\n"
     "  --supersample N        N x N rays per pixel, 1 to 8 (default 1)\n"
     "  --exposure K|auto      PNG: 1 - exp(-K L), L = 1 at 1000 cd/m2; auto (default) brings the mean of\n"
-    "                         log luminance above the horizon to 0.32 of white. EXR is never exposed\n"
+    "                         log luminance of sky and ground, whichever is brighter, to 0.32 of white.\n"
+    "                         EXR is never exposed\n"
     "  --float, --half        EXR: 32 (default) or 16 bits a channel; half is clamped at 65504\n"
     "  --owner TEXT           EXR: whose picture it is\n"
     "  --png-bits 8|16        (default 8)\n"
-    "  --no-dither            8 bits without the half step of noise that hides bands\n"
-    "The sun's disc is not drawn.\n";
+    "  --no-dither            8 bits without the half step of noise that hides bands\n";
 // clang-format on
 
 void picture_options_begin(picture_options *options, const char *command) {

@@ -28,9 +28,9 @@ static const double degree = 3.14159265358979323846 / 180.0;
 
 static void describe(const picture *image, const scene *view, char *text, size_t size) {
     char air[400];
-    snprintf(text, size, "%s; %s. Linear BT.709, (1,1,1) = %g cd/m2; the sun's disc is not drawn.",
+    snprintf(text, size, "%s; %s; discs of sun and moon %s. Linear BT.709, (1,1,1) = %g cd/m2.",
              projection_words(&image->map), sky_options_describe(view->options, air, sizeof air),
-             (double)SKV_WHITE_LUMINANCE);
+             view->around.discs > 0 ? "drawn" : "not drawn", (double)SKV_WHITE_LUMINANCE);
 }
 
 /// Zone time at sea: whole hours by longitude. @return what to add to it to get UTC, seconds
@@ -62,12 +62,18 @@ int picture_write_exr(const picture *image, const picture_options *options, scen
                       const char *path) {
     char comments[640], date[32];
     describe(image, view, comments, sizeof comments);
+    const scene_zenith_light zenith = scene_zenith(view);
     const skv_exr_extra extra[] = {
         {"skyvert.sunAzimuthDeg", (float)now->sun_azimuth_deg},
         {"skyvert.sunElevationDeg", (float)now->sun_elevation_deg},
         {"skyvert.groundAltitudeM", (float)view->options->ground_m},
-        {"skyvert.zenithLuminance", (float)scene_zenith_luminance(view)},
+        {"skyvert.zenithLuminance", (float)zenith.luminance},
+        {"skyvert.limitingMagnitude", (float)zenith.limiting_magnitude},
+        {"skyvert.moonAzimuthDeg", now->moon.azimuth_deg},
+        {"skyvert.moonElevationDeg", now->moon.elevation_deg},
+        {"skyvert.moonIlluminatedFraction", now->moon.illuminated_fraction},
     };
+    const size_t moon_extras = 3;
     const bool perspective = image->map.kind == PROJECTION_PERSPECTIVE;
     skv_exr_image exr = {
         .width = image->map.width,
@@ -86,7 +92,7 @@ int picture_write_exr(const picture *image, const picture_options *options, scen
         .software = "skyvert " SKV_VERSION,
         .comments = comments,
         .extra = extra,
-        .extras = sizeof extra / sizeof extra[0],
+        .extras = sizeof extra / sizeof extra[0] - (now->has_moon ? 0 : moon_extras),
     };
     if (now->has_utc) {
         exr.utc_offset_s = (float)local_time(now, date);

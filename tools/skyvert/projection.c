@@ -82,6 +82,18 @@ double projection_direction(const projection *map, double x, double y, float dir
     }
 }
 
+double projection_spacing(const projection *map) {
+    const double radius = 0.5 * (map->width < map->height ? map->width : map->height);
+    switch (map->kind) {
+    case PROJECTION_FISHEYE:
+        return radians(map->fov_deg) / 2.0 / radius;
+    case PROJECTION_LATLONG:
+        return fmax(pi / (map->height - 1), 2.0 * pi / (map->width - 1));
+    default:
+        return 2.0 * atan(tan(radians(map->fov_deg) / 2.0) / map->width);
+    }
+}
+
 double projection_weight(const projection *map, double x, double y) {
     double left, up, rho;
     switch (map->kind) {

@@ -28,6 +28,9 @@ void projection_prepare(projection *map);
 /// @return how much of a pixel there is covered by the picture, [0, 1]; 0: the direction is not written.
 double projection_direction(const projection *map, double x, double y, float direction_enu[3]);
 
+/// Angle between neighbouring pixels where it is widest, radians.
+double projection_spacing(const projection *map);
+
 /// Solid angle of a pixel there, relative to others of the same picture.
 double projection_weight(const projection *map, double x, double y);
 

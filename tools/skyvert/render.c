@@ -27,8 +27,8 @@ static int print_help(void) {
     printf("usage: skyvert render --position TEXT --height-m M --utc TIME --out FILE.exr|FILE.png [OPTION...]\n\n"
            "A picture of the sky: EXR holds linear light (1 = 1000 cd/m2), PNG is exposed for the eye (sRGB).\n"
            "  --out FILE             ends in .exr or .png\n\n"
-           "%s\n%s\n%s",
-           moment_options_help, picture_options_help, sky_options_help);
+           "%s\n%s\n%s\n%s",
+           moment_options_help, picture_options_help, light_options_help, sky_options_help);
     return output_finish_stdout();
 }
 
@@ -54,11 +54,15 @@ static int render(const render_options *options, const moment *now) {
     static scene view;
     picture image;
     const bool exr = ends_in(options->out, ".exr");
-    int status = scene_begin(&view, &options->sky, now);
+    const scene_plan plan = picture_plan(&options->picture);
+    view.progress = true;
+    int status = scene_begin(&view, &options->sky, now, &plan);
     if (status == 0)
         status = picture_render(&image, &options->picture, &view, now, true);
-    if (status != 0)
+    if (status != 0) {
+        scene_end(&view);
         return status;
+    }
     if (exr) {
         status = picture_write_exr(&image, &options->picture, &view, now, options->out);
     } else {
@@ -67,9 +71,10 @@ static int render(const render_options *options, const moment *now) {
         status = picture_write_png(&image, &options->picture, now, k, options->out);
     }
     picture_free(&image);
-    char text[120];
+    char text[400];
     if (status == 0 && options->sky.timing)
         fprintf(stderr, "%s\n", scene_timing(&view, text, sizeof text));
+    scene_end(&view);
     return status;
 }
 

@@ -9,7 +9,8 @@ static const char *const preset_names[] = {"earth-clear", "earth-hazy", "mars", 
                                            "earth-dense", "earth-x25",  "titan", "earth-smoke", NULL};
 static const char *const tier_names[] = {"fast", "standard", "high", NULL};
 static const char *const rule_names[] = {"uniform", "keller", "gauss-exp", NULL};
-static const char *const ground_names[] = {"none", "lit", NULL};
+static const char *const ground_names[] = {"none", "lit", "land", "water", NULL};
+enum { GROUND_NONE, GROUND_LIT, GROUND_LAND, GROUND_WATER };
 
 // clang-format off
 const char sky_options_help[] =
@@ -19,14 +20,16 @@ const char sky_options_help[] =
     "  --atmosphere FILE.ini  an atmosphere of your own instead\n"
     "  --bands 3|4            spectral bands of a preset (default 4)\n"
     "  --turbidity T          multiplies aerosol and dust, 0 to 10000 (default 1)\n"
-    "  --ground none|lit      whether the ground sends light back (default lit)\n"
+    "  --ground land|water|none\n"
+    "                         land (default; lit is the same): the ground sends back its albedo's share of the\n"
+    "                         light; water: it mirrors the sky and lights, see --wind-m-s; none: it is black\n"
     "  --ground-m M           height of the ground above the sea, -12000 to 12000 (default 0)\n"
     "  --tier NAME            fast, standard (default) or high\n"
     "  --rule NAME            uniform, keller or gauss-exp instead of the tier's\n"
     "  --samples N            along each ray, 1 to 64 (gauss-exp: 2 to 16, in each lit part)\n"
     "  --depth-samples M      of the optical depth by inner integration, 1 to 64; without it: Chapman's\n"
     "                         function for gauss-exp, N samples for the other rules\n"
-    "  --timing               print on standard error what the rays cost\n";
+    "  --timing               print on standard error what table and rays cost\n";
 // clang-format on
 
 void sky_options_begin(sky_options *options, const char *command) {
@@ -37,6 +40,7 @@ void sky_options_begin(sky_options *options, const char *command) {
     options->ground_lit = true;
     options->tier = SKV_TIER_STANDARD;
     options->rule = -1;
+    light_options_begin(&options->light);
 }
 
 int sky_options_take(sky_options *options, int option, const char *value) {
@@ -64,7 +68,8 @@ int sky_options_take(sky_options *options, int option, const char *value) {
         return option_number(command, "--turbidity", value, 0.0, 1e4, &options->turbidity);
     case OPT_GROUND:
         status = option_choice(command, "--ground", value, ground_names, &index);
-        options->ground_lit = index == 1;
+        options->ground_lit = index != GROUND_NONE;
+        options->water = index == GROUND_WATER;
         return status;
     case OPT_GROUND_M:
         return option_number(command, "--ground-m", value, -12e3, 12e3, &options->ground_m);
@@ -72,7 +77,7 @@ int sky_options_take(sky_options *options, int option, const char *value) {
         options->timing = true;
         return 0;
     default:
-        return -1;
+        return light_options_take(&options->light, command, option, value);
     }
 }
 
@@ -117,6 +122,8 @@ static int settle_atmosphere(sky_options *options) {
     }
     if (options->turbidity != 1.0)
         options->atmosphere.turbidity = (float)options->turbidity;
+    if (options->water)
+        water_albedo(options->bands, options->atmosphere.wavelength_nm, options->atmosphere.albedo);
     if (skv_colour_matrix_for(&options->matrix, options->bands, options->atmosphere.wavelength_nm,
                               options->atmosphere.solar_irradiance) == SKV_OK)
         return 0;
@@ -138,12 +145,16 @@ static const char *file_name_of(const char *path) {
 
 char *sky_options_describe(const sky_options *options, char *text, size_t size) {
     const skv_quality *quality = &options->quality;
+    char light[80];
     int n = snprintf(text, size, "%s, %d bands, %s with %d samples",
                      options->atmosphere_path ? file_name_of(options->atmosphere_path) : preset_names[options->preset],
                      options->bands, rule_names[quality->rule], quality->samples);
     if (n > 0 && (size_t)n < size && quality->depth == SKV_DEPTH_BY_INNER)
         n += snprintf(text + n, size - (size_t)n, " (depth %d)", quality->depth_samples);
     if (n > 0 && (size_t)n < size)
-        snprintf(text + n, size - (size_t)n, ", ground %s", options->ground_lit ? "lit" : "dark");
+        snprintf(text + n, size - (size_t)n, ", %s, %s", light_options_describe(&options->light, light, sizeof light),
+                 options->water        ? "water"
+                 : options->ground_lit ? "ground lit"
+                                       : "ground dark");
     return text;
 }

@@ -1,4 +1,4 @@
-/// Options that say what the air is and how it is integrated: shared by render, track and dome.
+/// Options that say what the air is, what shines and how it is integrated: shared by render, track and dome.
 #ifndef SKYVERT_SKY_OPTIONS_H
 #define SKYVERT_SKY_OPTIONS_H
 
@@ -8,6 +8,7 @@
 #include "skyvert/skyvert.h"
 
 #include "ini.h"
+#include "light_options.h"
 
 typedef struct sky_options {
     const char *command; ///< for error lines
@@ -16,9 +17,11 @@ typedef struct sky_options {
     const char *atmosphere_path; ///< NULL: the preset
     skv_quality quality;
     double turbidity;
-    bool ground_lit;
+    bool ground_lit; ///< the ground's own light is wanted
+    bool water;      ///< it is a sea: mirrors the sky
     double ground_m; ///< above the sea
     bool timing;     ///< print what it cost
+    light_options light;
     // What was given, settled by sky_options_finish().
     int tier, rule, samples, depth_samples;
     atmosphere_file file;
@@ -47,7 +50,8 @@ enum {
     {"rule", required_argument, NULL, OPT_RULE}, {"samples", required_argument, NULL, OPT_SAMPLES},                    \
     {"depth-samples", required_argument, NULL, OPT_DEPTH_SAMPLES},                                                     \
     {"turbidity", required_argument, NULL, OPT_TURBIDITY}, {"ground", required_argument, NULL, OPT_GROUND},            \
-    {"ground-m", required_argument, NULL, OPT_GROUND_M}, {"timing", no_argument, NULL, OPT_TIMING}
+    {"ground-m", required_argument, NULL, OPT_GROUND_M}, {"timing", no_argument, NULL, OPT_TIMING}, \
+    LIGHT_OPTIONS_LONG
 // clang-format on
 
 /// Lines of --help.

@@ -38,7 +38,8 @@ static const char help[] =
     "The skies along a flight, into DIR (made if it is not there):\n"
     "  sky-00000-20210817T124324Z.exr ...  linear light, one a step, numbered, named by the moment\n"
     "  contact-sheet.png                   small pictures, each exposed by itself unless --exposure K is given\n"
-    "  track.csv                           per step: time, place, sun, luminance of the zenith, exposure, file\n"
+    "  track.csv                           per step: time, place, sun, luminance of the zenith, exposure, file,\n"
+    "                                      magnitude of a star just seen in the zenith, moon\n"
     "Files of an earlier run with the same names are replaced, each one whole. After Ctrl-C the pictures that\n"
     "were done are there, the sheet and the CSV of an earlier run untouched.\n\n"
     "  --every T              time between pictures: 60s, 5min, 1h or plain seconds, 0.001 s to 1 day\n"
@@ -52,7 +53,7 @@ static const char help[] =
 // clang-format on
 
 static int print_help(void) {
-    printf("%s%s\n%s", help, picture_options_help, sky_options_help);
+    printf("%s%s\n%s\n%s", help, picture_options_help, light_options_help, sky_options_help);
     return output_finish_stdout();
 }
 
@@ -133,7 +134,7 @@ static int step_moment(job *work, size_t step, moment *now) {
     now->utc = at.utc;
     now->at = (place){.lat_deg = at.lat_deg, .lon_deg = at.lon_deg};
     const int status = moment_set_height(&now->at, at.height_m, HEIGHT_MSL);
-    return status != 0 ? status : moment_find_sun(now, NAME);
+    return status != 0 ? status : moment_find_lights(now, NAME);
 }
 
 /// sky-00012-20210817T124324Z.exr
@@ -146,9 +147,11 @@ static void file_name(size_t step, const utc_time *utc, char *name, size_t size)
 
 static void add_row(job *work, const moment *now, double exposure, const char *name) {
     char utc[UTC_TEXT_SIZE];
-    fprintf(work->table.stream, "%s,%.7f,%.7f,%.2f,%.4f,%.4f,%.6g,%.6g,%s\n", utc_text(&now->utc, utc), now->at.lat_deg,
-            now->at.lon_deg, now->at.msl_m, now->sun_azimuth_deg, now->sun_elevation_deg,
-            scene_zenith_luminance(&work->view), exposure, name);
+    const scene_zenith_light zenith = scene_zenith(&work->view);
+    fprintf(work->table.stream, "%s,%.7f,%.7f,%.2f,%.4f,%.4f,%.6g,%.6g,%s,%.2f,%.4f,%.4f,%.4f\n",
+            utc_text(&now->utc, utc), now->at.lat_deg, now->at.lon_deg, now->at.msl_m, now->sun_azimuth_deg,
+            now->sun_elevation_deg, zenith.luminance, exposure, name, zenith.limiting_magnitude,
+            (double)now->moon.azimuth_deg, (double)now->moon.elevation_deg, (double)now->moon.illuminated_fraction);
 }
 
 static void add_tile(job *work, size_t step, const moment *now, const picture *image, double exposure) {
@@ -166,9 +169,10 @@ static int do_step(job *work, size_t step) {
     moment now;
     picture image;
     char name[64], path[4200];
+    const scene_plan plan = picture_plan(options);
     int status = step_moment(work, step, &now);
     if (status == 0)
-        status = scene_begin(&work->view, &work->options->sky, &now);
+        status = scene_begin(&work->view, &work->options->sky, &now, &plan);
     if (status == 0)
         status = picture_render(&image, options, &work->view, &now, false);
     if (status != 0)
@@ -199,7 +203,8 @@ static int begin_table(job *work) {
         return fail_usage("skyvert track: --out: the path is too long");
     const int status = output_open(&work->table, path);
     if (status == 0)
-        fputs("utc,lat_deg,lon_deg,height_m,sun_azimuth_deg,sun_elevation_deg,zenith_luminance_cd_m2,exposure_k,file\n",
+        fputs("utc,lat_deg,lon_deg,height_m,sun_azimuth_deg,sun_elevation_deg,zenith_luminance_cd_m2,exposure_k,file,"
+              "limiting_magnitude,moon_azimuth_deg,moon_elevation_deg,moon_phase\n",
               work->table.stream);
     return status;
 }
@@ -236,7 +241,7 @@ static int count_steps(job *work) {
 }
 
 static void report(const job *work) {
-    char text[120];
+    char text[400];
     printf("%zu skies in %s from %zu fixes", work->steps, work->options->out, work->track.count);
     if (work->track.ignored > 0)
         printf(" (%zu without a position left out)", work->track.ignored);
@@ -257,6 +262,7 @@ static int track(const track_options *options) {
         status = run(&work);
     if (status == 0)
         report(&work);
+    scene_end(&work.view);
     contact_sheet_end(&work.sheet);
     flight_free(&work.track);
     return status == 0 ? output_finish_stdout() : status;

@@ -1,8 +1,7 @@
 /// The far end of each ray: transmittance from it to the observer, and the light of the ground where it meets it.
-#ifndef SKV_CORE_ENDS_H
-#define SKV_CORE_ENDS_H
-
+#include "core/cells.h"
 #include "core/rays.h"
+#include "core/stages.h"
 
 /// Columns from the observer to the end of the ray.
 static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, const skv_block *block,
@@ -38,14 +37,6 @@ static SKV_NOINLINE void skv_end_columns(const skv_frame *frame, unsigned has, c
         }
 }
 
-SKV_INLINE float skv_optical_depth_log2e(const skv_frame *frame, unsigned has, const skv_columns *c, int band, int l) {
-    float tau = 0.0f;
-    SKV_EACH_SPECIES(s)
-    if (SKV_PRESENT(has, s))
-        tau += frame->extinction_log2e_per_km[s][band] * c->of[s].v[l];
-    return tau;
-}
-
 #if SKV_TERM_GROUND
 /// Lambert's ground lit by one light: albedo/pi E mu_s T_light T_view.
 static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, int light, size_t first,
@@ -55,12 +46,14 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
     const float radius = frame->radius_km, rms0 = (radius + frame->height_km) * frame->light[light].mu_s;
     skv_block_light toward;
     skv_points g;
-    skv_lanes rms, h;
+    skv_lanes rms, h, mu_s;
     skv_columns c;
     skv_block_toward(frame, has, light, block, &toward);
     SKV_EACH_LANE(l) {
         h.v[l] = 0.0f;
-        rms.v[l] = skv_clampf(rms0 + block->leg[0].from_km.v[l] * toward.nu.v[l], 0.0f, radius);
+        const float along = rms0 + block->leg[0].from_km.v[l] * toward.nu.v[l];
+        mu_s.v[l] = along / radius;
+        rms.v[l] = skv_clampf(along, 0.0f, radius);
     }
     skv_points_above(frame, has, &h, &g);
     skv_columns_light(frame, has, &g, &rms, &c);
@@ -71,19 +64,24 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
         if (!(block->meets_ground.v[l] > 0.0f))
             continue;
         float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, bands, first + (size_t)l);
-        for (size_t b = 0; b < bands; b++)
+        for (size_t b = 0; b < bands && !frame->diffuse.only; b++)
             out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] * (rms.v[l] / radius) *
                       skv_exp2f(-skv_optical_depth_log2e(frame, has, &c, (int)b, l));
+        if (frame->diffuse.table)
+            for (size_t b = 0; b < bands; b++)
+                out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] *
+                          skv_exp2f(skv_ground_log2(frame->diffuse.table, mu_s.v[l], (int)b) -
+                                    skv_optical_depth_log2e(frame, has, view, (int)b, l));
     }
 }
 #endif
 
-/// @return whether any ray was refused.
-static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
+int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
-    if (!ground && !sky->transmittance && frame->lights > 0)
+    const int grid = frame->diffuse.grid && !rays->length_km;
+    if (!ground && !grid && !sky->transmittance && frame->lights > 0)
         return 0;
     for (size_t first = 0; first < n; first += SKV_LANES) {
         skv_block block;
@@ -91,6 +89,10 @@ static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_ray
         skv_block_load(frame, n, first, rays, &block);
         bad |= block.bad;
         skv_block_columns(frame, has, &block, k);
+        for (int light = 0; grid && light < frame->lights; light++)
+            skv_grid_add(frame, light, first, &block, k, sky);
+        if (!ground && !sky->transmittance)
+            continue;
         skv_end_columns(frame, has, &block, k, &view);
 #if SKV_TERM_GROUND
         for (int light = 0; ground && light < frame->lights; light++)
@@ -108,5 +110,3 @@ static SKV_NOINLINE int skv_ends(const skv_frame *frame, size_t n, const skv_ray
     }
     return bad;
 }
-
-#endif

@@ -1,0 +1,204 @@
+/// Light scattered more than once towards the observer: the integral of the diffuse source of a table along rays.
+///
+/// The source is the incoming radiance of the table's cells weighed by the moments of each phase function. With the
+/// view direction v, the sun s and up z at a sample, mu = v.z, q = v.s - mu mu_s:
+///
+///     c0 + a1 (k1 mu + k2 q) + a2 (k3 P2(mu) + k4 mu q + k5 (2 q^2 - (1-mu_s^2)(1-mu^2)))
+///        + a3 k6 P3(mu) + a4 k7 P4(mu) + k8 aureole(v.s)
+///
+/// No angle is divided by: with the sun in the zenith nothing has to be decided.
+#include "core/cells.h"
+#include "core/fine.h"
+#include "core/gauss_legendre.h"
+#include "core/legs.h"
+#include "core/slices.h"
+#include "core/stages.h"
+
+#if SKV_TERM_DIFFUSE
+
+/// Samples of up to SKV_LANES legs: what the source needs.
+typedef struct skv_diffuse_samples {
+    skv_lanes x, y; ///< coordinates in the table
+    skv_lanes mu, q, mu_s;
+    skv_lanes density[SKV_SCATTERERS]; ///< that scatters, times path length
+    skv_cells_place place[SKV_LANES];
+    float decay[SKV_LANES][SKV_BANDS_MAX]; ///< mean radiance times transmittance to the observer
+} skv_diffuse_samples;
+
+/// Polynomials in which the numbers of a cell are coefficients.
+SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, const skv_diffuse_samples *q, int l,
+                                   const skv_lanes aureole[SKV_SCATTERERS], float *restrict out) {
+    float k[SKV_CELLS_VALUES];
+    const int detailed = skv_cells_read(frame->diffuse.table, bands, &q->place[l], k);
+    const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
+    const float p2 = 1.5f * mu2 - 0.5f, mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
+    float one[SKV_BANDS_MAX], two[SKV_BANDS_MAX], sum[SKV_BANDS_MAX];
+    const float gas = SKV_PRESENT(has, SKV_RAYLEIGH) ? q->density[SKV_RAYLEIGH].v[l] : 0.0f;
+    SKV_EACH_OF(b, bands) {
+        one[b] = k[b] * mu + k[bands + b] * x;
+        two[b] = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
+        sum[b] = frame->scattering_per_km[SKV_RAYLEIGH][b] * gas * skv_maxf(1.0f + 0.1f * two[b], 0.0f);
+    }
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+        const float *const a = frame->diffuse.moment[s], density = SKV_PRESENT(has, s) ? q->density[s].v[l] : 0.0f;
+        float more[SKV_BANDS_MAX];
+        if (!SKV_PRESENT(has, s))
+            continue;
+        SKV_EACH_OF(b, bands) more[b] = 1.0f + a[0] * one[b] + a[1] * two[b];
+        if (detailed) {
+            float fine[SKV_TABLE_FINE];
+            skv_fine_basis(a, aureole[s].v[l], mu, x, mu_s, fine);
+            SKV_EACH_OF(b, bands) {
+                float t = more[b];
+                for (int i = 0; i < SKV_TABLE_FINE; i++)
+                    t += k[(5 + i) * bands + b] * fine[i];
+                more[b] = t;
+            }
+        }
+        SKV_EACH_OF(b, bands) sum[b] += frame->scattering_per_km[s][b] * density * skv_maxf(more[b], 0.0f);
+    }
+    SKV_EACH_OF(b, bands) out[b] += sum[b] * q->decay[l][b];
+}
+
+/// Mean radiance of each sample's cell, as far as it reaches the observer: both logarithms in one exponential.
+SKV_INLINE void skv_diffuse_means(const skv_frame *frame, unsigned has, int bands, const skv_columns *c, int count,
+                                  skv_diffuse_samples *q) {
+    const skv_table *const t = frame->diffuse.table;
+    skv_lanes light[SKV_BANDS_MAX];
+    for (int l = 0; l < SKV_LANES; l++) {
+        float log2_mean[SKV_BANDS_MAX];
+        q->place[l] = skv_cells_find(t, q->x.v[l], q->y.v[l]);
+        skv_cells_mean(t, bands, &q->place[l], log2_mean);
+        for (int b = 0; b < bands; b++)
+            light[b].v[l] = log2_mean[b];
+    }
+    for (int b = 0; b < bands; b++)
+        SKV_EACH_LANE(l)
+    light[b].v[l] = skv_decay(&frame->limits, light[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
+    for (int l = 0; l < count; l++)
+        for (int b = 0; b < bands; b++)
+            q->decay[l][b] = light[b].v[l];
+}
+
+SKV_INLINE void skv_diffuse_node(const skv_frame *frame, unsigned has, int bands, const skv_legs *leg,
+                                 const skv_columns *c, int count, const skv_lanes aureole[SKV_SCATTERERS],
+                                 skv_diffuse_samples *q, float radiance[][SKV_BANDS_MAX]) {
+    skv_diffuse_means(frame, has, bands, c, count, q);
+    for (int l = 0; l < count; l++)
+        if (leg->b.v[l] > leg->a.v[l])
+            skv_diffuse_source(frame, has, bands, q, l, aureole, radiance[l]);
+}
+
+/// One slice of a leg, [a, b], of each lane.
+static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_legs *leg, int count,
+                                           const skv_lanes aureole[SKV_SCATTERERS], float radiance[][SKV_BANDS_MAX]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const int n = frame->diffuse.samples, bands = SKV_BANDS_OF(has);
+    const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
+    const skv_table *const t = frame->diffuse.table;
+    const float rows = (float)(t->altitudes - 1), inv_span = frame->diffuse.inv_span, offset = frame->diffuse.offset_km;
+    skv_points p;
+    skv_lanes e0, rm, rms, l_km, k, whole;
+    skv_diffuse_samples q;
+    skv_legs_start(frame, has, leg, &p, &e0, &rm, &rms);
+    skv_legs_map(frame, has, leg, &p, &rm, &rms, &l_km, &k, &whole);
+    for (int i = 0; i < n; i++) {
+        skv_lanes e, ds, mu_leg, sin_view;
+        skv_columns c;
+        SKV_EACH_LANE(l) {
+            const float g = skv_exp2f_d5(k.v[l] * (1.44269504f * node[i])), s = l_km.v[l] * (g - 1.0f);
+            ds.v[l] = weight[i] * k.v[l] * l_km.v[l] * g;
+            e.v[l] = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f);
+            mu_leg.v[l] = rm.v[l] + s;
+            q.mu_s.v[l] = rms.v[l] + s * leg->nu.v[l];
+        }
+        skv_points_at(frame, has, &e, &p);
+        SKV_EACH_LANE(l) {
+            const float inv_r = p.inv_r.v[l], m = skv_clampf(mu_leg.v[l] * inv_r, 0.0f, 1.0f);
+            const float ms = skv_clampf(q.mu_s.v[l] * inv_r, -1.0f, 1.0f), dir = -leg->sigma.v[l];
+            mu_leg.v[l] = m;
+            sin_view.v[l] = skv_minf(leg->p_km.v[l] * inv_r, 1.0f);
+            q.mu_s.v[l] = ms;
+            q.mu.v[l] = dir * m;
+            q.q.v[l] = dir * (leg->nu.v[l] - m * ms);
+            q.x.v[l] = skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f);
+            q.y.v[l] = skv_cells_column(t, ms);
+        }
+        SKV_EACH_LANE(l) q.x.v[l] = skv_sqrtf(q.x.v[l]) * rows;
+        skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);
+        SKV_EACH_SPECIES(s)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l)
+        c.of[s].v[l] = skv_maxf(leg->k.of[s].v[l] + leg->sigma.v[l] * c.of[s].v[l], 0.0f);
+        SKV_EACH_SCATTERER(s)
+        if (SKV_PRESENT(has, s)) {
+            skv_scattering_density(frame, has, &p, s, &q.density[s]);
+            SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
+        }
+#if SKV_BANDS == 0
+        if (bands == 4)
+            skv_diffuse_node(frame, has, 4, leg, &c, count, aureole, &q, radiance);
+        else
+            skv_diffuse_node(frame, has, 3, leg, &c, count, aureole, &q, radiance);
+#else
+        skv_diffuse_node(frame, has, SKV_BANDS, leg, &c, count, aureole, &q, radiance);
+#endif
+    }
+}
+
+/// One part of the rays of a block as legs; the planet's shadow does not matter here.
+static SKV_NOINLINE int skv_diffuse_legs(const skv_frame *frame, int light, size_t n, size_t first,
+                                         const skv_rays *rays, int part, skv_legs *restrict leg,
+                                         skv_lanes aureole[restrict SKV_SCATTERERS]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const float *const to = frame->diffuse.toward_enu[light];
+    skv_block block;
+    skv_block_light toward;
+    skv_columns k[2];
+    skv_block_load(frame, n, first, rays, &block);
+    skv_block_columns(frame, has, &block, k);
+    skv_block_toward(frame, has, light, &block, &toward);
+    skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], leg);
+    SKV_EACH_LANE(l) {
+        const float x = block.view[0].v[l] - to[0], y = block.view[1].v[l] - to[1], z = block.view[2].v[l] - to[2];
+        const float near = 0.5f * (x * x + y * y + z * z);
+        for (int s = 0; s < SKV_SCATTERERS; s++)
+            aureole[s].v[l] =
+                SKV_PRESENT(has, s) && s != SKV_RAYLEIGH ? skv_aureole(frame->diffuse.aureole[s], near) : 0.0f;
+    }
+    return part + 1 < block.parts;
+}
+
+/// Adds light scattered at least twice along each ray.
+void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays *rays, const skv_sky *sky) {
+    const int bands = skv_bands(frame->model);
+    for (size_t first = 0; first < n; first += SKV_LANES) {
+        const int count = n - first < SKV_LANES ? (int)(n - first) : SKV_LANES;
+        float radiance[SKV_LANES][SKV_BANDS_MAX];
+        for (int l = 0; l < SKV_LANES; l++)
+            for (int b = 0; b < SKV_BANDS_MAX; b++)
+                radiance[l][b] = 0.0f;
+        for (int part = 0, more = 1; part < 2 && more; part++) {
+            skv_legs leg;
+            skv_lanes aureole[SKV_SCATTERERS];
+            more = skv_diffuse_legs(frame, light, n, first, rays, part, &leg, aureole);
+            const int slices = skv_slices(frame, &leg);
+            const skv_lanes last = leg.b;
+            for (int i = 0; i < slices; i++) {
+                if (i < slices - 1)
+                    skv_slice_end(frame, &leg, i, &last);
+                else
+                    leg.b = last;
+                skv_diffuse_slice(frame, &leg, count, aureole, radiance);
+                leg.a = leg.b;
+            }
+        }
+        for (int l = 0; l < count; l++) {
+            float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, (size_t)bands, first + (size_t)l);
+            for (int b = 0; b < bands; b++)
+                out[b] = skv_minf(out[b] + radiance[l][b] * frame->light[light].irradiance[b], SKV_RADIANCE_MAX);
+        }
+    }
+}
+
+#endif
