@@ -117,13 +117,16 @@ skv_status skv_atmosphere_preset(skv_atmosphere *atmosphere, skv_preset preset, 
 #define SKV_COLUMN_TANGENTS 64
 /// Rows of a tabulated density.
 #define SKV_DENSITY_ROWS 192
+/// Most altitudes between which a layer's density is linear: tents, tables of up to SKV_KNOTS_MAX - 2 rows.
+#define SKV_KNOTS_MAX 16
 /// Most corners of densities that are taken care of.
-#define SKV_MODEL_BREAKS 8
+#define SKV_MODEL_BREAKS 12
 
 /// Derived: how one species' density and column are found (src/core/profile.h, column.h).
 typedef struct skv_species {
     int32_t kind;          ///< skv_profile_kind; NONE where nothing of it scatters or absorbs
-    int32_t column;        ///< 0 closed form; 1 table of ratios to it; 2 table of ratios to 1/(1 + 14 mu)
+    int32_t column;        ///< 0 closed form; 1 table of ratios to it; 2 table of ratios to 1/(1 + 14 mu); 3 knots
+    int32_t knots;         ///< of a layer (src/core/knots.h), which lie in its column's table
     float scale_height_km; ///< of the closed form
     float inv_scale_log2e; ///< log2(e)/scale_height_km
     float background;      ///< constant density beside exp(-h/H)

@@ -99,7 +99,7 @@ typedef struct skv_frame_diffuse {
 } skv_frame_diffuse;
 
 /// Most altitudes at which legs are cut.
-#define SKV_FRAME_BREAKS 12
+#define SKV_FRAME_BREAKS 16
 
 /// Derived, constant after skv_frame_begin(); points to the model, which must outlive it.
 typedef struct skv_frame {

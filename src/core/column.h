@@ -9,6 +9,7 @@
 #include "core/chapman.h"
 #include "core/gauss_legendre.h"
 #include "core/geometry.h"
+#include "core/knots.h"
 #include "core/lookup.h"
 #include "core/profile.h"
 
@@ -45,14 +46,23 @@ SKV_INLINE void skv_points_above(const skv_frame *frame, unsigned has, const skv
     skv_points_at(frame, has, &e, p);
 }
 
+#if SKV_PROFILE_TABULATED
+SKV_INLINE void skv_density_tabulated(const skv_frame *frame, int s, const skv_lanes *h_km, skv_lanes *density) {
+    const skv_model *model = frame->model;
+    if (model->species[s].column == SKV_COLUMN_KNOTS)
+        skv_density_knots(frame, s, h_km, density);
+    else
+        skv_density_lanes(&model->species[s], skv_density_table(model, s), model->top_km, frame->ground_km, h_km,
+                          density);
+}
+#endif
+
 /// Density that scatters: the exponential plus its background, or the profile's own.
 SKV_INLINE void skv_scattering_density(const skv_frame *frame, unsigned has, const skv_points *p, int s,
                                        skv_lanes *density) {
 #if SKV_PROFILE_TABULATED
-    const skv_species *sp = &frame->model->species[s];
-    if ((has & SKV_HAS_RATIO) != 0 && sp->column != 0) {
-        skv_density_lanes(sp, skv_density_table(frame->model, s), frame->model->top_km, frame->ground_km, &p->h_km,
-                          density);
+    if ((has & SKV_HAS_RATIO) != 0 && frame->model->species[s].column != 0) {
+        skv_density_tabulated(frame, s, &p->h_km, density);
         return;
     }
 #endif
@@ -81,7 +91,7 @@ static SKV_NOINLINE void skv_columns_chapman_up(const skv_frame *frame, unsigned
                                                 skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
     SKV_EACH_SCATTERER(s) {
-        if (!SKV_PRESENT(has, s))
+        if (!SKV_PRESENT(has, s) || skv_is_layer(frame, has, s))
             continue;
         const float ck = frame->species[s].chapman_ck, a = frame->species[s].chapman_a, z = frame->species[s].chapman_z;
         SKV_EACH_LANE(l) {
@@ -101,7 +111,7 @@ static SKV_NOINLINE void skv_columns_chapman_tangent(const skv_frame *frame, uns
                                                      skv_columns *restrict out) {
     const unsigned has = bits & SKV_HAS_BUILT;
     SKV_EACH_SCATTERER(s) {
-        if (!SKV_PRESENT(has, s))
+        if (!SKV_PRESENT(has, s) || skv_is_layer(frame, has, s))
             continue;
         const float a = 2.0f * frame->species[s].chapman_a, z = frame->species[s].chapman_z;
         SKV_EACH_LANE(l)
@@ -131,8 +141,7 @@ SKV_INLINE void skv_densities(const skv_frame *frame, unsigned has, const skv_la
             continue;
 #if SKV_PROFILE_TABULATED
         if ((has & SKV_HAS_RATIO) != 0 && model->species[s].column != 0) {
-            skv_density_lanes(&model->species[s], skv_density_table(model, s), model->top_km, frame->ground_km, &h,
-                              &out->of[s]);
+            skv_density_tabulated(frame, s, &h, &out->of[s]);
             continue;
         }
 #endif

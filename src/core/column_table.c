@@ -103,4 +103,99 @@ void skv_density_table_build(float density[SKV_DENSITY_ROWS], const skv_profile 
     }
 }
 
+#if SKV_PROFILE_TABULATED
+enum { SKV_KNOTS_ROWS = SKV_KNOTS_MAX - 2 };
+
+/// A lognormal to three standard deviations of the logarithm. Less a twelfth of its second difference a row is that of
+/// the nearest broken line, which has the same column.
+static void skv_knots_lognormal(const skv_species *species, float h[SKV_KNOTS_ROWS], float d[SKV_KNOTS_ROWS]) {
+    const float step = 6.0f / (float)(SKV_KNOTS_ROWS - 1) / skv_sqrtf(2.0f * species->p1);
+    float at[3] = {0.0f, 0.0f, 0.0f}; // densities: before, here, after
+    for (int i = -1; i < SKV_KNOTS_ROWS; i++) {
+        const float next = skv_expf(species->p0 + ((float)(i + 1) - 0.5f * (float)(SKV_KNOTS_ROWS - 1)) * step);
+        at[0] = at[1];
+        at[1] = at[2];
+        at[2] = i + 1 < SKV_KNOTS_ROWS ? skv_density_formula(species, next) : 0.0f;
+        if (i >= 0)
+            d[i] =
+                i > 0 && i < SKV_KNOTS_ROWS - 1 ? skv_maxf(at[1] - (at[0] - 2.0f * at[1] + at[2]) / 12.0f, 0.0f) : 0.0f;
+        if (i + 1 < SKV_KNOTS_ROWS)
+            h[i + 1] = next;
+    }
+}
+
+/// Rows of a short table, or made for a tent or a lognormal. @return their number; 0: no layer.
+static int32_t skv_knots_rows(const skv_profile *profile, const skv_species *species, float h[SKV_KNOTS_ROWS],
+                              float d[SKV_KNOTS_ROWS], const float **altitude, const float **density) {
+    *altitude = h;
+    *density = d;
+    if (profile->kind == SKV_PROFILE_LOGNORMAL) {
+        skv_knots_lognormal(species, h, d);
+        return SKV_KNOTS_ROWS;
+    }
+    if (profile->kind == SKV_PROFILE_TENT) {
+        for (int i = 0; i < 3; i++) {
+            h[i] = profile->peak_km + (float)(i - 1) * profile->half_width_km;
+            d[i] = i == 1 ? 1.0f : 0.0f;
+        }
+        return 3;
+    }
+    *altitude = profile->table_altitude_km;
+    *density = profile->table_density;
+    return profile->kind == SKV_PROFILE_TABLE && profile->table_rows <= SKV_KNOTS_ROWS ? (int32_t)profile->table_rows
+                                                                                       : 0;
+}
+
+/// Density at z of the line between two rows, z between them.
+static float skv_knots_between(float z, const float *h, const float *d, int32_t i, int32_t j) {
+    return d[i] + (d[j] - d[i]) * skv_clampf((z - h[i]) / (h[j] - h[i]), 0.0f, 1.0f);
+}
+
+/// Rows cut to [lowest, top], constant beyond their ends. @return number
+static int32_t skv_knots_cut(const float *altitude, const float *density, int32_t rows, float lowest, float top,
+                             float h[SKV_KNOTS_MAX], float *rho) {
+    int32_t n = 0;
+    h[n] = lowest;
+    rho[n++] = density[0];
+    for (int32_t i = 0; i < rows; i++) {
+        if (altitude[i] <= lowest)
+            rho[0] = i + 1 < rows ? skv_knots_between(lowest, altitude, density, i, i + 1) : density[i];
+        if (!(altitude[i] > lowest && altitude[i] < top))
+            continue;
+        h[n] = altitude[i];
+        rho[n++] = density[i];
+    }
+    h[n] = top;
+    rho[n++] = density[rows - 1];
+    for (int32_t i = rows - 1; i > 0; i--)
+        if (altitude[i] >= top)
+            rho[n - 1] = skv_knots_between(top, altitude, density, i - 1, i);
+    return n;
+}
+
+int32_t skv_knots_build(skv_column_table *table, const skv_profile *profile, const skv_species *species,
+                        float radius_km, float top_km) {
+    float made_h[SKV_KNOTS_ROWS], made_d[SKV_KNOTS_ROWS], h[SKV_KNOTS_MAX], d[SKV_KNOTS_MAX];
+    const float *altitude, *density;
+    const int32_t rows = skv_knots_rows(profile, species, made_h, made_d, &altitude, &density);
+    if (rows == 0)
+        return 0;
+    // No ground is lower than 12 km or half the radius (frame.h).
+    int32_t n = skv_knots_cut(altitude, density, rows, -skv_minf(12.0f, 0.5f * radius_km), top_km, h, d), from = 0;
+    while (from + 1 < n && d[from] == 0.0f && d[from + 1] == 0.0f)
+        from++;
+    while (n - 1 > from && d[n - 1] == 0.0f && d[n - 2] == 0.0f)
+        n--;
+    n -= from;
+    float *const e = table->column, *const rho = e + SKV_KNOTS_MAX, *const slope = rho + SKV_KNOTS_MAX;
+    for (int32_t i = 0; i < n; i++) {
+        e[i] = h[from + i] * (2.0f * radius_km + h[from + i]);
+        rho[i] = d[from + i];
+    }
+    for (int32_t i = 0; i < n; i++)
+        slope[i] = i + 1 < n && e[i + 1] > e[i] ? (rho[i + 1] - rho[i]) / (e[i + 1] - e[i]) : 0.0f;
+    return n;
+}
+#endif
+
 #endif

@@ -14,6 +14,10 @@ float skv_profile_centroid_km(const skv_profile *profile, const skv_species *spe
 void skv_column_table_build(skv_column_table *table, const skv_profile *profile, const skv_species *species,
                             float radius_km, float top_km);
 
+/// The knots of a layer: tent, lognormal, or a table of few rows. @return their number; 0: it is none of these.
+int32_t skv_knots_build(skv_column_table *table, const skv_profile *profile, const skv_species *species,
+                        float radius_km, float top_km);
+
 /// Resamples a density for run time.
 void skv_density_table_build(float density[SKV_DENSITY_ROWS], const skv_profile *profile, const skv_species *species,
                              float top_km);

@@ -127,12 +127,14 @@ static void skv_frame_break(skv_frame *f, float z_km, uint32_t inbound) {
 
 /// Where legs are cut (slices.h): corners; the upper end of a thin layer; where opaque air ends, seen from above.
 static void skv_frame_breaks(skv_frame *f) {
-    float fog = 0.0f;
+    float fog = 0.0f, lowest = 1.0f;
+    for (int32_t i = 0; i < f->lights; i++)
+        lowest = skv_minf(lowest, f->light[i].mu_s);
     for (int i = 0; i < f->model->breaks; i++)
         skv_frame_break(f, f->model->break_km[i] - f->ground_km, 0);
     for (int s = 0; s < SKV_SCATTERERS; s++) {
         const skv_species *sp = &f->model->species[s];
-        if (f->species[s].kind == SKV_PROFILE_NONE)
+        if (f->species[s].kind == SKV_PROFILE_NONE || sp->column == SKV_COLUMN_KNOTS)
             continue;
         const float scale = sp->scale_height_km, dense = f->map_per_km[s];
         // Optical depth of half the horizontal ray at the ground.
@@ -143,8 +145,10 @@ static void skv_frame_breaks(skv_frame *f) {
         // From above the flight levels, rays through the dense half of the air cross this altitude.
         if (s == SKV_RAYLEIGH && half > 2.0f && half <= 10.0f && f->height_km > 2.4f * scale)
             skv_frame_break(f, 1.5f * scale, 1);
+        // Where a low light is in gas that hides it, what there is comes from where it is no longer hidden.
+        const uint32_t inbound = s == SKV_RAYLEIGH && lowest < 0.25f ? 0 : 1;
         if (half > (s == SKV_RAYLEIGH ? 10.0f : 5.0f))
-            skv_frame_break(f, scale * skv_logf(half), 1);
+            skv_frame_break(f, scale * skv_logf(half), inbound);
         if (half > 30.0f)
             skv_frame_break(f, 0.5f * scale * skv_logf(half), 1);
         fog += dense * skv_exp2f(-f->height_km * sp->inv_scale_log2e);

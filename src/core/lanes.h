@@ -93,6 +93,15 @@ SKV_INLINE int skv_bands(const skv_model *model) {
 #endif
 }
 
+/// skv_species.column of a layer.
+#define SKV_COLUMN_KNOTS 3
+
+/// Whether a present species is a layer.
+SKV_INLINE int skv_is_layer(const skv_frame *frame, unsigned has, int s) {
+    return SKV_PROFILE_TABULATED && SKV_PRESENT(has, s) && (has & SKV_HAS_RATIO) != 0 &&
+           frame->model->species[s].column == SKV_COLUMN_KNOTS;
+}
+
 /// exp2 of what decays: densities, transmittances. Not 0 below 2^-126 but that; x > 0 counts as 0.
 SKV_INLINE float skv_decay(const skv_frame_limits *limits, float x) {
     return skv_exp2f_inner(skv_maxf(skv_minf(x, limits->zero), limits->exp2_floor));

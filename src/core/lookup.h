@@ -4,7 +4,7 @@
 #ifndef SKV_CORE_LOOKUP_H
 #define SKV_CORE_LOOKUP_H
 
-#include "core/lanes.h"
+#include "core/knots.h"
 
 #if SKV_TERM_OZONE || SKV_PROFILE_TABULATED
 
@@ -86,7 +86,9 @@ SKV_INLINE void skv_columns_tables_up(const skv_frame *frame, unsigned has, cons
     SKV_EACH_LANE(l) t.v[l] = 1.0f / (1.0f + 14.0f * mu->v[l]);
 #if SKV_PROFILE_TABULATED
     SKV_EACH_SCATTERER(s)
-    if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
+    if (skv_is_layer(frame, has, s)) {
+        skv_columns_knots(frame, s, h_km, mu, 1.0f, &out->of[s]);
+    } else if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
         skv_lookup_column(frame, skv_column_table_of(frame->model, s), 1, h_km, &t, &k, &ratio);
         SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
     }
@@ -106,7 +108,9 @@ SKV_INLINE void skv_columns_tables_tangent(const skv_frame *frame, unsigned has,
     skv_lookup k;
 #if SKV_PROFILE_TABULATED
     SKV_EACH_SCATTERER(s)
-    if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
+    if (skv_is_layer(frame, has, s)) {
+        skv_columns_knots(frame, s, h_km, NULL, 2.0f, &out->of[s]);
+    } else if ((has & SKV_HAS_RATIO) != 0 && SKV_PRESENT(has, s) && frame->model->species[s].column != 0) {
         skv_lookup_tangent(frame, skv_column_table_of(frame->model, s), 1, h_km, &k, &ratio);
         SKV_EACH_LANE(l) out->of[s].v[l] *= ratio.v[l];
     }

@@ -184,9 +184,14 @@ static void skv_tables(skv_model *m, const skv_profile *const profile[SKV_SPECIE
 #endif
 #if SKV_PROFILE_TABULATED
     for (int s = 0; s < 2 + SKV_TERM_DUST; s++) {
-        const skv_species *sp = &m->species[s];
+        skv_species *sp = &m->species[s];
         if (sp->kind == SKV_PROFILE_NONE || sp->column == 0)
             continue;
+        sp->knots = skv_knots_build(&m->column[s], profile[s], sp, m->radius_km, m->top_km);
+        if (sp->knots > 0) {
+            sp->column = SKV_COLUMN_KNOTS;
+            continue;
+        }
         skv_column_table_build(&m->column[s], profile[s], sp, m->radius_km, m->top_km);
         skv_density_table_build(m->density[s], profile[s], sp, m->top_km);
     }
@@ -195,25 +200,37 @@ static void skv_tables(skv_model *m, const skv_profile *const profile[SKV_SPECIE
     (void)m;
 }
 
-/// Corners of a tent; of a table: where its slope changes by a good part of its largest density within a step.
-static void skv_breaks(skv_model *m, const skv_profile *p) {
-    for (int i = -1; i <= 1 && p->kind == SKV_PROFILE_TENT && m->breaks < SKV_MODEL_BREAKS; i++) {
-        const float corner = p->peak_km + (float)i * p->half_width_km;
-        if (corner > 0.0f && corner < m->top_km)
-            m->break_km[m->breaks++] = corner;
-    }
-    if (p->kind != SKV_PROFILE_TABLE)
-        return;
+static void skv_break(skv_model *m, float h_km) {
+    if (h_km > 0.0f && h_km < m->top_km && m->breaks < SKV_MODEL_BREAKS)
+        m->break_km[m->breaks++] = h_km;
+}
+
+/// Corners of a table: where its slope changes by a good part of its largest density within a step.
+static void skv_breaks_table(skv_model *m, const skv_profile *p) {
     const float *h = p->table_altitude_km, *d = p->table_density;
     float most = 0.0f;
     for (uint32_t i = 0; i < p->table_rows; i++)
         most = skv_maxf(most, d[i]);
-    for (uint32_t i = 0; i < p->table_rows && m->breaks < SKV_MODEL_BREAKS; i++) {
+    for (uint32_t i = 0; i < p->table_rows; i++) {
         const float below = i > 0 ? h[i] - h[i - 1] : 1e9f, above = i + 1 < p->table_rows ? h[i + 1] - h[i] : 1e9f;
         const float s0 = i > 0 ? (d[i] - d[i - 1]) / below : 0.0f;
         const float s1 = i + 1 < p->table_rows ? (d[i + 1] - d[i]) / above : 0.0f;
-        if (h[i] > 0.0f && h[i] < m->top_km && skv_fabsf(s1 - s0) * skv_minf(below, above) > 0.15f * most)
-            m->break_km[m->breaks++] = h[i];
+        if (skv_fabsf(s1 - s0) * skv_minf(below, above) > 0.15f * most)
+            skv_break(m, h[i]);
+    }
+}
+
+/// Where legs are cut; a lognormal at its peak and where it is down to a hundredth of that.
+static void skv_breaks(skv_model *m, const skv_profile *p) {
+    if (p->kind == SKV_PROFILE_TABLE) {
+        skv_breaks_table(m, p);
+    } else if (p->kind == SKV_PROFILE_TENT) {
+        for (int i = -1; i <= 1; i++)
+            skv_break(m, p->peak_km + (float)i * p->half_width_km);
+    } else if (p->kind == SKV_PROFILE_LOGNORMAL) {
+        const float peak = p->lognormal_mu - 0.5f / p->lognormal_k, width = skv_sqrtf(4.6f / p->lognormal_k);
+        for (int i = -1; i <= 1; i++)
+            skv_break(m, skv_expf(peak + (float)i * width));
     }
 }
 
@@ -245,7 +262,10 @@ static uint32_t skv_model_hash(const skv_model *m) {
 #endif
 #if SKV_PROFILE_TABULATED
     for (int s = 0; s < 2 + SKV_TERM_DUST; s++)
-        hash = m->species[s].kind == SKV_PROFILE_TABLE ? skv_hash(hash, m->density[s], SKV_DENSITY_ROWS) : hash;
+        if (m->species[s].column == SKV_COLUMN_KNOTS)
+            hash = skv_hash(hash, m->column[s].column, 3 * SKV_KNOTS_MAX);
+        else if (m->species[s].kind == SKV_PROFILE_TABLE)
+            hash = skv_hash(hash, m->density[s], SKV_DENSITY_ROWS);
 #endif
     return hash;
 }

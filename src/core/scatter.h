@@ -24,8 +24,7 @@ SKV_INLINE void skv_scatter(const skv_frame *frame, unsigned has, const skv_poin
     skv_lanes source[SKV_SCATTERERS];
     skv_source(frame, has, p, SKV_RAYLEIGH, &phase[SKV_RAYLEIGH], ds, &source[SKV_RAYLEIGH]);
     skv_source(frame, has, p, SKV_AEROSOL, &phase[SKV_AEROSOL], ds, &source[SKV_AEROSOL]);
-    if (SKV_PRESENT(has, SKV_DUST))
-        skv_source(frame, has, p, SKV_DUST, &phase[SKV_DUST], ds, &source[SKV_DUST]);
+    skv_source(frame, has, p, SKV_DUST, &phase[SKV_DUST], ds, &source[SKV_DUST]);
     for (int b = 0; b < bands; b++) {
         const float br = frame->extinction_log2e_per_km[SKV_RAYLEIGH][b],
                     sr = frame->scattering_per_km[SKV_RAYLEIGH][b];

@@ -3,7 +3,8 @@
 ///   bits [--tiny-is-zero] [--flush] [--round up|down|zero]
 ///
 /// Options (x86): --flush and --round set flush-to-zero or a rounding mode as a host may have done: values stay finite
-/// and not negative, the bits may differ. --tiny-is-zero counts values below 2^-100 (1e-30) as 0, so that a run with
+/// and not negative, the bits may differ. --tiny-is-zero counts values below 2^-96 (1e-29; sums of subnormal terms
+/// change bits up to there) as 0, so that a run with
 /// --flush can be compared with one without. Exit status 1 when a value was not what it has to be.
 #include "bits.h"
 
@@ -72,7 +73,7 @@ void bits_float(float value, bits_kind kind) {
         if (wrong++ < 5)
             print_hash(name, word), puts("^ wrong: a value that is negative, infinite or NaN (its bits)");
     }
-    bits_word(tiny_is_zero && (word >> 23 & 255) < 127 - 100 ? 0 : word);
+    bits_word(tiny_is_zero && (word >> 23 & 255) < 127 - 96 ? 0 : word);
 }
 
 void bits_floats(const float *value, size_t n, bits_kind kind) {

@@ -108,6 +108,23 @@ static inline skv_atmosphere air_smoky(int bands) {
     return a;
 }
 
+/// A layer: smoke between 2 and 5 km, or dust with sharper edges from a table.
+static inline skv_atmosphere air_layered(int bands, int from_table) {
+    static const float km[] = {0, 2.8f, 3, 4.5f, 5, 10}, density[] = {0, 0, 1, 1, 0, 0};
+    skv_atmosphere a = air_clear(bands);
+    fill(a.dust_scattering_per_km, 0.15, 0.115, 0.09, 0.08);
+    fill(a.dust_extinction_per_km, 0.16, 0.12, 0.095, 0.085);
+    a.dust.kind = from_table ? SKV_PROFILE_TABLE : SKV_PROFILE_TENT;
+    a.dust.peak_km = 3.5f;
+    a.dust.half_width_km = 1.5f;
+    a.dust.table_altitude_km = km;
+    a.dust.table_density = density;
+    a.dust.table_rows = 6;
+    a.dust_phase = SKV_PHASE_HG;
+    a.dust_g = 0.66f;
+    return a;
+}
+
 static inline void air_make(air *to, const char *name, skv_atmosphere atmosphere, float ground_km) {
     to->name = name;
     to->atmosphere = atmosphere;
