@@ -71,92 +71,126 @@ SKV_INLINE const float *skv_cells_floats(const skv_table *t) {
     return (const float *)(const void *)(t + 1);
 }
 
-/// Weights of the four cells around a point, and where they are.
-typedef struct skv_cells_place {
-    int row, column;
-    float w00, w01, w10, w11; ///< [row][column]
-} skv_cells_place;
-
-SKV_INLINE skv_cells_place skv_cells_find(const skv_table *t, float x, float y) {
-    skv_cells_place p;
-    p.row = (int)x;
-    p.row = p.row > t->altitudes - 2 ? t->altitudes - 2 : p.row;
-    p.column = (int)y;
-    p.column = p.column > t->suns - 2 ? t->suns - 2 : p.column;
-    const float wx = x - (float)p.row, wy = y - (float)p.column;
-    p.w11 = wx * wy;
-    p.w10 = wx - p.w11;
-    p.w01 = wy - p.w11;
-    p.w00 = 1.0f - wx - p.w01;
-    return p;
-}
-
 /// Most ratios of a cell.
-#define SKV_CELLS_VALUES ((SKV_TABLE_TERMS - 1) * SKV_BANDS_MAX)
+#define SKV_CELLS_RATIOS ((SKV_TABLE_TERMS - 1) * SKV_BANDS_MAX)
 
-/// Weighted sums of n numbers of four cells; two pairs of neighbours, `step` apart within a pair.
-#define SKV_CELLS_MIX(type, base, r0, step0, r1, step1, first, last, out)                                              \
-    do {                                                                                                               \
-        const type *const a = (base) + (r0) + (first), *const b = a + (step0);                                         \
-        const type *const c = (base) + (r1) + (first), *const d = c + (step1);                                         \
-        SKV_EACH_OF(k, (last) - (first))                                                                               \
-        (out)[k + (first)] =                                                                                           \
-            p->w00 * (float)a[k] + p->w01 * (float)b[k] + p->w10 * (float)c[k] + p->w11 * (float)d[k];                 \
-    } while (0)
+/// What stands at a point per lane: log2 of the mean radiance, ratios [terms - 1][bands] to it.
+typedef struct skv_cells_values {
+    skv_lanes log2_mean[SKV_BANDS_MAX];
+    skv_lanes ratio[SKV_CELLS_RATIOS];
+} skv_cells_values;
 
-/// The same of one pair.
-#define SKV_CELLS_MIX_LOW(type, base, r0, step0, first, last, out)                                                     \
-    do {                                                                                                               \
-        const type *const a = (base) + (r0) + (first), *const b = a + (step0);                                         \
-        SKV_EACH_OF(k, (last) - (first))                                                                               \
-        (out)[k + (first)] = p->w00 * (float)a[k] + p->w01 * (float)b[k];                                              \
-    } while (0)
-
-/// Ratios of degrees 1 and 2, and the fine ones where the lower row has them (they fade out towards the first row that
-/// has none).
-#define SKV_CELLS_RATIOS(type, base)                                                                                   \
-    do {                                                                                                               \
-        SKV_CELLS_MIX(type, base, r0, step0, r1, step1, 0, n, ratio);                                                  \
-        if (fine && step1 == step0)                                                                                    \
-            SKV_CELLS_MIX(type, base, r0, step0, r1, step1, n, all, ratio);                                            \
-        else if (fine)                                                                                                 \
-            SKV_CELLS_MIX_LOW(type, base, r0, step0, n, all, ratio);                                                   \
-    } while (0)
-
-/// log2 of the mean radiance, per band.
-SKV_INLINE void skv_cells_mean(const skv_table *t, int bands, const skv_cells_place *p, float log2_mean[]) {
-    const size_t wide = (size_t)bands, row = t->suns * wide;
-    const size_t low = (size_t)(p->row + 1) * row + (size_t)p->column * wide;
-    if (t->format == SKV_TABLE_FLOAT) {
-        const float *const a = skv_cells_floats(t) + low, *const b = a + wide, *const c = a + row, *const d = c + wide;
-        SKV_EACH_OF(i, bands)
-        log2_mean[i] = p->w00 * a[i] + p->w01 * b[i] + p->w10 * c[i] + p->w11 * d[i];
-        return;
+/// Whole and broken part of coordinates; `most` is the last whole part.
+SKV_INLINE void skv_cells_split(const skv_lanes *x, int most, int32_t whole[], skv_lanes *rest, int range[2]) {
+    range[0] = most;
+    range[1] = 0;
+    SKV_EACH_LANE(l) {
+        int32_t i = (int32_t)x->v[l];
+        i = i > most ? most : i;
+        whole[l] = i;
+        rest->v[l] = x->v[l] - (float)i;
+        range[0] = i < range[0] ? i : range[0];
+        range[1] = i > range[1] ? i : range[1];
     }
-    const uint16_t *const a = skv_cells_codes(t) + low, *const b = a + wide, *const c = a + row, *const d = c + wide;
-    SKV_EACH_OF(i, bands)
-    log2_mean[i] = (p->w00 * (float)a[i] + p->w01 * (float)b[i] + p->w10 * (float)c[i] + p->w11 * (float)d[i]) *
-                       (1.0f / SKV_CELLS_STEPS) +
-                   SKV_CELLS_FLOOR;
 }
 
-/// Ratios [terms - 1][bands] to the mean radiance.
-/// @return whether there are fine ones; if not these are not written.
-SKV_INLINE int skv_cells_read(const skv_table *t, int bands, const skv_cells_place *p, float ratio[]) {
-    const size_t logs = (skv_cells_count(t) + t->suns) * (size_t)bands;
-    const size_t r0 = skv_cells_ratios(t, p->row, p->column), r1 = skv_cells_ratios(t, p->row + 1, p->column);
-    const int fine = p->row < t->detailed, n = 5 * bands, all = (SKV_TABLE_TERMS - 1) * bands;
-    const int step0 = fine ? all : n, step1 = p->row + 1 < t->detailed ? all : n;
-    if (t->format == SKV_TABLE_FLOAT) {
-        const float *const f = skv_cells_floats(t) + logs;
-        SKV_CELLS_RATIOS(float, f);
-        return fine;
+/// Weights of four cells [row][column], per lane.
+typedef struct skv_cells_weights {
+    skv_lanes of[4];
+} skv_cells_weights;
+
+/// out += the weighted sum of n numbers of four cells; of the first row's two where there is no second one.
+SKV_INLINE void skv_cells_weigh(const float *const number[4], int n, const skv_cells_weights *restrict w,
+                                skv_lanes *restrict out) {
+    for (int i = 0; i < n; i++) {
+        const float a = number[0][i], b = number[1][i], c = number[2][i], d = number[3][i];
+        SKV_EACH_LANE(l)
+        out[i].v[l] += w->of[0].v[l] * a + w->of[1].v[l] * b + w->of[2].v[l] * c + w->of[3].v[l] * d;
     }
-    const int8_t *const q = (const int8_t *)(const void *)(skv_cells_codes(t) + logs);
-    SKV_CELLS_RATIOS(int8_t, q);
-    for (int k = 0; k < (fine ? SKV_TABLE_TERMS - 1 : 5); k++)
+}
+
+SKV_INLINE void skv_cells_weigh_row(const float *const number[4], int n, const skv_cells_weights *restrict w,
+                                    skv_lanes *restrict out) {
+    for (int i = 0; i < n; i++) {
+        const float a = number[0][i], b = number[1][i];
+        SKV_EACH_LANE(l) out[i].v[l] += w->of[0].v[l] * a + w->of[1].v[l] * b;
+    }
+}
+
+/// Adds the cells [row][column] to [row + 1][column + 1]; packed numbers become floats first, many at a time.
+SKV_INLINE void skv_cells_add(const skv_table *t, int bands, int row, int column, const skv_cells_weights *w,
+                              skv_cells_values *restrict out) {
+    const size_t wide = (size_t)bands, ratios = (skv_cells_count(t) + t->suns) * wide;
+    const int n = 5 * bands, all = (SKV_TABLE_TERMS - 1) * bands;
+    const float *mean[4], *ratio[4];
+    float means[4][SKV_BANDS_MAX], unpacked[4][SKV_CELLS_RATIOS];
+    for (int i = 0; i < 4; i++) {
+        const int r = row + i / 2, c = column + i % 2, count = r < t->detailed ? all : n;
+        const size_t at = ((size_t)(r + 1) * t->suns + (size_t)c) * wide, from = ratios + skv_cells_ratios(t, r, c);
+        mean[i] = means[i];
+        ratio[i] = unpacked[i];
+        if (t->format == SKV_TABLE_FLOAT) {
+            mean[i] = skv_cells_floats(t) + at;
+            ratio[i] = skv_cells_floats(t) + from;
+            continue;
+        }
+        const uint16_t *const code = skv_cells_codes(t) + at;
+        const int8_t *const packed = (const int8_t *)(const void *)(skv_cells_codes(t) + ratios) + (from - ratios);
         for (int b = 0; b < bands; b++)
-            ratio[k * bands + b] *= t->ratio_scale[k];
+            means[i][b] = (float)code[b];
+        SKV_EACH_OF(k, count) unpacked[i][k] = (float)packed[k];
+    }
+    skv_cells_weigh(mean, bands, w, out->log2_mean);
+    skv_cells_weigh(ratio, n, w, out->ratio);
+    for (int i = 0; i < 4; i++)
+        ratio[i] += n;
+    if (row + 1 < t->detailed)
+        skv_cells_weigh(ratio, all - n, w, out->ratio + n);
+    else if (row < t->detailed)
+        skv_cells_weigh_row(ratio, all - n, w, out->ratio + n);
+}
+
+/// Bilinear values at points, per lane. It goes over the cells that some lane touches, not over lanes: neighbouring
+/// rays share most of them, and a weight of 0 changes no bit.
+/// @param x  row, y  column coordinate.
+/// @return whether some lane has fine ratios; if none, these are 0.
+SKV_INLINE int skv_cells_values_at(const skv_table *t, int bands, const skv_lanes *x, const skv_lanes *y,
+                                   skv_cells_values *out) {
+    int32_t row[SKV_LANES], column[SKV_LANES];
+    int rows[2], columns[2];
+    skv_lanes wx, wy;
+    skv_cells_split(x, t->altitudes - 2, row, &wx, rows);
+    skv_cells_split(y, t->suns - 2, column, &wy, columns);
+    const int fine = rows[0] < t->detailed, n = (fine ? SKV_TABLE_TERMS - 1 : 5) * bands;
+    for (int b = 0; b < bands; b++)
+        SKV_EACH_LANE(l) out->log2_mean[b].v[l] = 0.0f;
+    for (int i = 0; i < n; i++)
+        SKV_EACH_LANE(l) out->ratio[i].v[l] = 0.0f;
+    for (int r = rows[0]; r <= rows[1]; r++)
+        for (int c = columns[0]; c <= columns[1]; c++) {
+            skv_cells_weights w;
+            uint32_t any = 0;
+            SKV_EACH_LANE(l) {
+                const float here = row[l] == r && column[l] == c ? 1.0f : 0.0f;
+                const float high = here * wx.v[l], low = here - high;
+                w.of[1].v[l] = low * wy.v[l];
+                w.of[0].v[l] = low - w.of[1].v[l];
+                w.of[3].v[l] = high * wy.v[l];
+                w.of[2].v[l] = high - w.of[3].v[l];
+                any |= skv_bits(here);
+            }
+            if (any != 0)
+                skv_cells_add(t, bands, r, c, &w, out);
+        }
+    if (t->format == SKV_TABLE_PACKED) {
+        for (int b = 0; b < bands; b++)
+            SKV_EACH_LANE(l)
+        out->log2_mean[b].v[l] = out->log2_mean[b].v[l] * (1.0f / SKV_CELLS_STEPS) + SKV_CELLS_FLOOR;
+        for (int i = 0; i < n; i++) {
+            const float scale = t->ratio_scale[i / bands];
+            SKV_EACH_LANE(l) out->ratio[i].v[l] *= scale;
+        }
+    }
     return fine;
 }
 

@@ -21,77 +21,66 @@ typedef struct skv_diffuse_samples {
     skv_lanes x, y; ///< coordinates in the table
     skv_lanes mu, q, mu_s;
     skv_lanes density[SKV_SCATTERERS]; ///< that scatters, times path length
-    skv_cells_place place[SKV_LANES];
-    float decay[SKV_LANES][SKV_BANDS_MAX]; ///< mean radiance times transmittance to the observer
 } skv_diffuse_samples;
 
-/// Polynomials in which the numbers of a cell are coefficients.
-SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, const skv_diffuse_samples *q, int l,
-                                   const skv_lanes aureole[SKV_SCATTERERS], float *restrict out) {
-    float k[SKV_CELLS_VALUES];
-    const int detailed = skv_cells_read(frame->diffuse.table, bands, &q->place[l], k);
-    const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
-    const float p2 = 1.5f * mu2 - 0.5f, mx = mu * x, xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
-    float one[SKV_BANDS_MAX], two[SKV_BANDS_MAX], sum[SKV_BANDS_MAX];
-    const float gas = SKV_PRESENT(has, SKV_RAYLEIGH) ? q->density[SKV_RAYLEIGH].v[l] : 0.0f;
-    SKV_EACH_OF(b, bands) {
-        one[b] = k[b] * mu + k[bands + b] * x;
-        two[b] = k[2 * bands + b] * p2 + k[3 * bands + b] * mx + k[4 * bands + b] * xy;
-        sum[b] = frame->scattering_per_km[SKV_RAYLEIGH][b] * gas * skv_maxf(1.0f + 0.1f * two[b], 0.0f);
-    }
-    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
-        const float *const a = frame->diffuse.moment[s], density = SKV_PRESENT(has, s) ? q->density[s].v[l] : 0.0f;
-        float more[SKV_BANDS_MAX];
-        if (!SKV_PRESENT(has, s))
-            continue;
-        SKV_EACH_OF(b, bands) more[b] = 1.0f + a[0] * one[b] + a[1] * two[b];
-        if (detailed) {
-            float fine[SKV_TABLE_FINE];
-            skv_fine_basis(a, aureole[s].v[l], mu, x, mu_s, fine);
-            SKV_EACH_OF(b, bands) {
-                float t = more[b];
+/// What the samples' cells send towards the observer: polynomials in which the numbers of a cell are coefficients.
+/// @param k     values of the cells; log2_mean already less the optical depth of the view.
+SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, int fine,
+                                   const skv_diffuse_samples *q, const skv_cells_values *k,
+                                   const skv_lanes aureole[SKV_SCATTERERS], skv_lanes radiance[]) {
+    skv_lanes basis[SKV_SCATTERERS][SKV_TABLE_FINE];
+    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS && fine; s++)
+        if (SKV_PRESENT(has, s))
+            SKV_EACH_LANE(l) {
+                float f[SKV_TABLE_FINE];
+                skv_fine_basis(frame->diffuse.moment[s], aureole[s].v[l], q->mu.v[l], q->q.v[l], q->mu_s.v[l], f);
                 for (int i = 0; i < SKV_TABLE_FINE; i++)
-                    t += k[(5 + i) * bands + b] * fine[i];
-                more[b] = t;
+                    basis[s][i].v[l] = f[i];
             }
+    for (int b = 0; b < bands; b++) {
+        skv_lanes one, two, sum;
+        SKV_EACH_LANE(l) {
+            const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
+            const float xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
+            one.v[l] = k->ratio[b].v[l] * mu + k->ratio[bands + b].v[l] * x;
+            two.v[l] = k->ratio[2 * bands + b].v[l] * (1.5f * mu2 - 0.5f) + k->ratio[3 * bands + b].v[l] * (mu * x) +
+                       k->ratio[4 * bands + b].v[l] * xy;
+            sum.v[l] = 0.0f;
         }
-        SKV_EACH_OF(b, bands) sum[b] += frame->scattering_per_km[s][b] * density * skv_maxf(more[b], 0.0f);
+        if (SKV_PRESENT(has, SKV_RAYLEIGH)) {
+            const float scattering = frame->scattering_per_km[SKV_RAYLEIGH][b];
+            SKV_EACH_LANE(l)
+            sum.v[l] = scattering * q->density[SKV_RAYLEIGH].v[l] * skv_maxf(1.0f + 0.1f * two.v[l], 0.0f);
+        }
+        for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
+            const float *const a = frame->diffuse.moment[s], scattering = frame->scattering_per_km[s][b];
+            skv_lanes more;
+            if (!SKV_PRESENT(has, s))
+                continue;
+            SKV_EACH_LANE(l) more.v[l] = 1.0f + a[0] * one.v[l] + a[1] * two.v[l];
+            for (int i = 0; i < SKV_TABLE_FINE && fine; i++)
+                SKV_EACH_LANE(l) more.v[l] += k->ratio[(5 + i) * bands + b].v[l] * basis[s][i].v[l];
+            SKV_EACH_LANE(l) sum.v[l] += scattering * q->density[s].v[l] * skv_maxf(more.v[l], 0.0f);
+        }
+        SKV_EACH_LANE(l) radiance[b].v[l] += sum.v[l] * k->log2_mean[b].v[l];
     }
-    SKV_EACH_OF(b, bands) out[b] += sum[b] * q->decay[l][b];
 }
 
-/// Mean radiance of each sample's cell, as far as it reaches the observer: both logarithms in one exponential.
-SKV_INLINE void skv_diffuse_means(const skv_frame *frame, unsigned has, int bands, const skv_columns *c, int count,
-                                  skv_diffuse_samples *q) {
-    const skv_table *const t = frame->diffuse.table;
-    skv_lanes light[SKV_BANDS_MAX];
-    for (int l = 0; l < SKV_LANES; l++) {
-        float log2_mean[SKV_BANDS_MAX];
-        q->place[l] = skv_cells_find(t, q->x.v[l], q->y.v[l]);
-        skv_cells_mean(t, bands, &q->place[l], log2_mean);
-        for (int b = 0; b < bands; b++)
-            light[b].v[l] = log2_mean[b];
-    }
+SKV_INLINE void skv_diffuse_node(const skv_frame *frame, unsigned has, int bands, const skv_columns *c,
+                                 const skv_lanes aureole[SKV_SCATTERERS], const skv_diffuse_samples *q,
+                                 skv_lanes radiance[]) {
+    skv_cells_values k;
+    const int fine = skv_cells_values_at(frame->diffuse.table, bands, &q->x, &q->y, &k);
+    // Mean radiance of the cell, as far as it reaches the observer: both logarithms in one exponential.
     for (int b = 0; b < bands; b++)
         SKV_EACH_LANE(l)
-    light[b].v[l] = skv_decay(&frame->limits, light[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
-    for (int l = 0; l < count; l++)
-        for (int b = 0; b < bands; b++)
-            q->decay[l][b] = light[b].v[l];
-}
-
-SKV_INLINE void skv_diffuse_node(const skv_frame *frame, unsigned has, int bands, const skv_legs *leg,
-                                 const skv_columns *c, int count, const skv_lanes aureole[SKV_SCATTERERS],
-                                 skv_diffuse_samples *q, float radiance[][SKV_BANDS_MAX]) {
-    skv_diffuse_means(frame, has, bands, c, count, q);
-    for (int l = 0; l < count; l++)
-        if (leg->b.v[l] > leg->a.v[l])
-            skv_diffuse_source(frame, has, bands, q, l, aureole, radiance[l]);
+    k.log2_mean[b].v[l] = skv_decay(&frame->limits, k.log2_mean[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
+    skv_diffuse_source(frame, has, bands, fine, q, &k, aureole, radiance);
 }
 
 /// One slice of a leg, [a, b], of each lane.
-static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_legs *leg, int count,
-                                           const skv_lanes aureole[SKV_SCATTERERS], float radiance[][SKV_BANDS_MAX]) {
+static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_legs *leg,
+                                           const skv_lanes aureole[SKV_SCATTERERS], skv_lanes radiance[restrict]) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int n = frame->diffuse.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
@@ -138,11 +127,11 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
         }
 #if SKV_BANDS == 0
         if (bands == 4)
-            skv_diffuse_node(frame, has, 4, leg, &c, count, aureole, &q, radiance);
+            skv_diffuse_node(frame, has, 4, &c, aureole, &q, radiance);
         else
-            skv_diffuse_node(frame, has, 3, leg, &c, count, aureole, &q, radiance);
+            skv_diffuse_node(frame, has, 3, &c, aureole, &q, radiance);
 #else
-        skv_diffuse_node(frame, has, SKV_BANDS, leg, &c, count, aureole, &q, radiance);
+        skv_diffuse_node(frame, has, SKV_BANDS, &c, aureole, &q, radiance);
 #endif
     }
 }
@@ -175,10 +164,9 @@ void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays
     const int bands = skv_bands(frame->model);
     for (size_t first = 0; first < n; first += SKV_LANES) {
         const int count = n - first < SKV_LANES ? (int)(n - first) : SKV_LANES;
-        float radiance[SKV_LANES][SKV_BANDS_MAX];
-        for (int l = 0; l < SKV_LANES; l++)
-            for (int b = 0; b < SKV_BANDS_MAX; b++)
-                radiance[l][b] = 0.0f;
+        skv_lanes radiance[SKV_BANDS_MAX];
+        for (int b = 0; b < SKV_BANDS_MAX; b++)
+            SKV_EACH_LANE(l) radiance[b].v[l] = 0.0f;
         for (int part = 0, more = 1; part < 2 && more; part++) {
             skv_legs leg;
             skv_lanes aureole[SKV_SCATTERERS];
@@ -190,14 +178,14 @@ void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays
                     skv_slice_end(frame, &leg, i, &last);
                 else
                     leg.b = last;
-                skv_diffuse_slice(frame, &leg, count, aureole, radiance);
+                skv_diffuse_slice(frame, &leg, aureole, radiance);
                 leg.a = leg.b;
             }
         }
         for (int l = 0; l < count; l++) {
             float *out = skv_at_mutable(sky->radiance, sky->radiance_stride, (size_t)bands, first + (size_t)l);
             for (int b = 0; b < bands; b++)
-                out[b] = skv_minf(out[b] + radiance[l][b] * frame->light[light].irradiance[b], SKV_RADIANCE_MAX);
+                out[b] = skv_minf(out[b] + radiance[b].v[l] * frame->light[light].irradiance[b], SKV_RADIANCE_MAX);
         }
     }
 }

@@ -32,7 +32,7 @@ skv_status skv_frame_table(skv_frame *frame, const skv_table *table) {
     if (!table)
         return SKV_OK;
     skv_diffuse_moments(frame->model, d);
-    d->samples = frame->quality.samples <= 4 ? 4 : 6;
+    d->samples = skv_diffuse_nodes(frame->model);
     d->only = 0;
     d->inv_span = 1.0f / table->span_km;
     d->offset_km = frame->ground_km - table->ground_km;

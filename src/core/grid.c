@@ -13,10 +13,11 @@
 
 #if SKV_TERM_DIFFUSE
 
-#define SKV_GRID_UP       24
-#define SKV_GRID_DOWN     12
-#define SKV_GRID_ROWS     (SKV_GRID_UP + SKV_GRID_DOWN)
-#define SKV_GRID_AZIMUTHS 13
+#define SKV_GRID_UP   24
+#define SKV_GRID_DOWN 12
+#define SKV_GRID_ROWS (SKV_GRID_UP + SKV_GRID_DOWN)
+/// A block of lanes; 13 gain nothing.
+#define SKV_GRID_AZIMUTHS 8
 
 SKV_INLINE float skv_grid_amount(float tau) {
     const float t = tau * (1.0f + tau * (0.5f + tau * (1.0f / 6.0f)));

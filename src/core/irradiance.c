@@ -41,19 +41,26 @@ static void skv_irradiance_transmittance(const skv_frame *frame, int light, floa
 /// Within the air: the radiance of the table's cell, degree by degree, times the clamped cosine's moments
 /// pi, 2 pi/3, pi/4, 0 [Ramamoorthi01, eq. 8]; degree 4 would count 1/24.
 typedef struct skv_irradiance_cell {
-    float mean[SKV_BANDS_MAX], k[SKV_CELLS_VALUES];
+    float mean[SKV_BANDS_MAX], k[5 * SKV_BANDS_MAX];
     float mu_s;
 } skv_irradiance_cell;
 
-static void skv_irradiance_read(const skv_frame *frame, int light, skv_irradiance_cell *cell) {
+static SKV_NOINLINE void skv_irradiance_read(const skv_frame *frame, int light, skv_irradiance_cell *cell) {
     const skv_table *const t = frame->diffuse.table;
+    const int bands = skv_bands(frame->model);
     const float mu_s = frame->light[light].mu_s;
-    const float x = skv_clampf((frame->height_km + frame->diffuse.offset_km) * frame->diffuse.inv_span, 0.0f, 1.0f);
-    const skv_cells_place p = skv_cells_find(t, skv_sqrtf(x) * (float)(t->altitudes - 1), skv_cells_column(t, mu_s));
-    skv_cells_mean(t, skv_bands(frame->model), &p, cell->mean);
-    for (int b = 0; b < skv_bands(frame->model); b++)
-        cell->mean[b] = skv_exp2f(cell->mean[b]);
-    (void)skv_cells_read(t, skv_bands(frame->model), &p, cell->k);
+    const float h = skv_clampf((frame->height_km + frame->diffuse.offset_km) * frame->diffuse.inv_span, 0.0f, 1.0f);
+    skv_lanes x, y;
+    skv_cells_values values;
+    SKV_EACH_LANE(l) {
+        x.v[l] = skv_sqrtf(h) * (float)(t->altitudes - 1);
+        y.v[l] = skv_cells_column(t, mu_s);
+    }
+    (void)skv_cells_values_at(t, bands, &x, &y, &values);
+    for (int b = 0; b < bands; b++)
+        cell->mean[b] = skv_exp2f(values.log2_mean[b].v[0]);
+    for (int i = 0; i < 5 * bands; i++)
+        cell->k[i] = values.ratio[i].v[0];
     cell->mu_s = mu_s;
 }
 
@@ -80,13 +87,17 @@ enum { SKV_IRRADIANCE_POLAR = 12, SKV_IRRADIANCE_AZIMUTHS = 16 };
 static void skv_irradiance_from_space(const skv_frame *frame, const float n[3], float out[]) {
     const float r = frame->radius_km + frame->height_km, rt = frame->radius_km + frame->top_km;
     const float high = -skv_sqrtf((r - rt) * (r + rt)) / r;
-    const int bands = skv_bands(frame->model);
+    const float horizon = -skv_sqrtf(frame->height_km * (frame->radius_km + r)) / r;
+    const int bands = skv_bands(frame->model), half = SKV_IRRADIANCE_POLAR / 2;
     skv_frame whole = *frame;
     whole.quality.terms |= SKV_TERM_GROUND ? (uint32_t)SKV_WITH_GROUND : 0u;
     for (int i = 0; i < SKV_IRRADIANCE_POLAR; i++) {
-        const int at = skv_gauss_offset(SKV_IRRADIANCE_POLAR) + i;
-        const float t = skv_gauss_node[at], mu = high - (1.0f + high) * t * t;
-        const float weight = 2.0f * t * (1.0f + high) * skv_gauss_weight[at] * 2.0f * SKV_PI / SKV_IRRADIANCE_AZIMUTHS;
+        // Half of them for the limb alone: in twilight most light comes from there.
+        const int at = skv_gauss_offset(half) + i % half;
+        const float t = skv_gauss_node[at], range = i < half ? high - horizon : -1.0f - horizon;
+        const float mu = horizon + range * t * t;
+        const float weight =
+            2.0f * t * skv_fabsf(range) * skv_gauss_weight[at] * 2.0f * SKV_PI / SKV_IRRADIANCE_AZIMUTHS;
         const float s = skv_sqrtf(skv_maxf((1.0f - mu) * (1.0f + mu), 0.0f));
         float v[SKV_IRRADIANCE_AZIMUTHS][3], radiance[SKV_IRRADIANCE_AZIMUTHS * SKV_BANDS_MAX];
         for (int k = 0; k < SKV_IRRADIANCE_AZIMUTHS; k++) {

@@ -46,4 +46,22 @@ static inline int skv_kept_species(const skv_model *m) {
     return kept;
 }
 
+/// Largest vertical optical depth of scattering of the bands, roughly.
+static inline float skv_scattering_depth(const skv_model *m) {
+    float tau = 0.0f;
+    for (int b = 0; b < skv_bands(m); b++) {
+        float sum = 0.0f;
+        for (int s = 0; s < SKV_SCATTERERS; s++)
+            sum += m->scattering_per_km[s][b] * m->species[s].scale_height_km;
+        tau = skv_maxf(tau, sum);
+    }
+    return tau;
+}
+
+/// Nodes a leg of diffuse light needs: more change nothing in Earth's air, the source of thick air varies faster.
+static inline int32_t skv_diffuse_nodes(const skv_model *m) {
+    const float tau = skv_scattering_depth(m);
+    return tau < 0.6f ? 4 : tau < 1.2f ? 6 : 8;
+}
+
 #endif

@@ -75,13 +75,7 @@ size_t skv_table_work_size(const skv_table_spec *spec, int bands) {
 
 /// Passes that leave less than the error of the rest of the method: more where light is scattered more often.
 static int32_t skv_table_orders(const skv_model *m) {
-    float tau = 0.0f;
-    for (int b = 0; b < skv_bands(m); b++) {
-        float sum = 0.0f;
-        for (int k = 0; k < SKV_SCATTERERS; k++)
-            sum += m->scattering_per_km[k][b] * m->species[k].scale_height_km;
-        tau = skv_maxf(tau, sum);
-    }
+    const float tau = skv_scattering_depth(m);
     return tau < 0.5f ? 4 : tau < 8.0f ? 4 + (int32_t)(4.0f * tau) : 40;
 }
 
@@ -120,6 +114,7 @@ skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_
         s.altitudes = 8;
         s.detailed = 8;
     }
+    s.samples[1] = skv_diffuse_nodes(model);
     while (s.suns > 8 && skv_table_size(&s, 4) > skv_table_most[kind])
         s.suns--;
     *spec = s;
@@ -310,7 +305,8 @@ static void skv_table_cell_get(const skv_table_cell *at, int bands, float out[SK
 
 static void skv_table_cell_put(const skv_table_cell *at, int bands, const float now[SKV_TABLE_TERMS]) {
     const float inv = 1.0f / skv_maxf(now[0], SKV_CELLS_LEAST);
-    *at->mean = skv_table_log2(now[0]);
+    // Deep in a white cloud over white ground it is .4; more is a quadrature that does not see a layer of some metres.
+    *at->mean = skv_table_log2(skv_minf(now[0], 1.0f));
     for (int k = 1; k < at->terms; k++)
         at->ratio[(k - 1) * bands] = skv_clampf(now[k] * inv, -skv_table_bound[k - 1], skv_table_bound[k - 1]);
 }
@@ -338,7 +334,7 @@ static void skv_table_cell_band(skv_table_builder *b, int band) {
     else
         sum += *at.once;
     *at.once = last ? sum - skv_exp2f(*at.ground) : *at.once;
-    *at.ground = skv_table_log2(sum);
+    *at.ground = skv_table_log2(skv_minf(sum, 4.0f));
 }
 
 /// After the last pass: the rest of the series, row by row, and how large the ratios become.
@@ -356,7 +352,7 @@ static void skv_table_tail(skv_table_builder *b) {
             for (int k = 0; k < at.terms - 1; k++)
                 b->largest[k] = skv_maxf(b->largest[k], skv_fabsf(at.ratio[k * bands]));
             if (b->row == 0)
-                *at.ground = skv_table_log2(skv_exp2f(*at.ground) + more * *at.once);
+                *at.ground = skv_table_log2(skv_minf(skv_exp2f(*at.ground) + more * *at.once, 4.0f));
         }
 }
 
@@ -378,7 +374,9 @@ static void skv_table_work(skv_table_builder *b) {
     if (b->ray == 0)
         skv_table_cell_begin(b);
     if (left > 0) {
-        skv_table_gather(b, left < SKV_TABLE_STEP_RAYS ? left : SKV_TABLE_STEP_RAYS);
+        // Rays of one elevation at a time: they meet the same cells.
+        const int fan = b->spec.azimuths[b->pass > 1], rest = fan - b->ray % fan;
+        skv_table_gather(b, rest < SKV_TABLE_STEP_RAYS ? rest : SKV_TABLE_STEP_RAYS);
         return;
     }
     skv_table_cell_band(b, b->ray - rays);

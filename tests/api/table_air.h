@@ -8,7 +8,7 @@
 #include "skyvert/table.h"
 
 #if SMALL_TARGET
-enum { TABLE_WORDS = 400, WORK_WORDS = 2800, GRID_WORDS = 1900 };
+enum { TABLE_WORDS = 1060, WORK_WORDS = 2800, GRID_WORDS = 1880 };
 #else
 enum { TABLE_WORDS = 8192, WORK_WORDS = 40000, GRID_WORDS = 2 * 1900 };
 #endif

@@ -15,6 +15,8 @@
 #include <xmmintrin.h>
 #endif
 
+skv_model bits_model;
+
 static uint64_t hash, total;
 static uint32_t state;
 static char name[48];

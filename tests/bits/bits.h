@@ -6,6 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "skyvert/atmosphere.h"
+
+/// One for all parts: a board has no room for one each.
+extern skv_model bits_model;
+
 /// How much a part computes: the small selection fits a microcontroller under emulation; all targets run it.
 typedef enum bits_scale { BITS_SMALL = 0, BITS_FULL = 1 } bits_scale;
 

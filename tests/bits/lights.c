@@ -8,7 +8,7 @@
 
 enum { RAYS = 8 };
 
-static skv_model model;
+#define model bits_model
 static float view[RAYS][3], radiance[RAYS][4], through[RAYS][4];
 
 static void begin_model(void) {

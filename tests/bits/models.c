@@ -32,12 +32,11 @@ static void set_profile(skv_profile *profile, skv_profile_kind kind) {
 }
 
 static void build(const skv_atmosphere *air) {
-    static skv_model model; // too large for a small stack
-    memset(&model, 0, sizeof model);
-    const skv_status status = skv_model_build(&model, air);
+    memset(&bits_model, 0, sizeof bits_model);
+    const skv_status status = skv_model_build(&bits_model, air);
     bits_word((uint32_t)status);
     if (status == SKV_OK)
-        hash_model(&model);
+        hash_model(&bits_model);
 }
 
 void bits_models(bits_scale scale) {

@@ -15,7 +15,7 @@ typedef struct vertex {
     float transmittance[4];
 } vertex;
 
-static skv_model model;
+#define model bits_model
 static skv_frame frame;
 
 static void random_quality(skv_quality *q, uint32_t which) {

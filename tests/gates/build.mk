@@ -35,4 +35,4 @@ gates-programs: $(GATES)/cc/stack $(GATES)/gcc/count $(GATES)/gcc/stack $(GATES)
 cortexm-programs: $(CM)/m4f/gates/count.elf $(CM)/m4f/gates/stack.elf $(CM)/m4f/gates/sizes.elf $(CM)/m4f/demo.elf $(CM)/libcount.so
 sizes: ## flash, stack, table bytes and instructions per vertex, x86-64 and Cortex-M4F
 	@B=$(B) MAKE="$(MAKE)" $(BASH) tests/gates/sizes.sh
-TEST_SCRIPT += tests/gates/without_packages.sh
+TEST_SCRIPT += tests/gates/without_packages.sh tests/gates/steps.sh

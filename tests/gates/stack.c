@@ -8,7 +8,11 @@
 
 #include "skyvert/skyvert.h"
 
+#if defined(__arm__)
+enum { PAINT = 0xA5, STACK = 8 * 1024 };
+#else
 enum { PAINT = 0xA5, STACK = 12 * 1024 };
+#endif
 static unsigned char stack[STACK] __attribute__((aligned(64)));
 
 #if defined(__arm__)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# bench.sh [errors|cost [BUILD]]: error, instructions and time of every rule and tier; BUILD such as "gcc avx2" alone.
+# bench.sh [errors|orders|cost|tables [BUILD]]: error, instructions and time of every rule and tier (errors, cost: light
+# scattered once; orders, tables: all light); BUILD such as "gcc avx2" alone.
 # Called by `make bench` with B set.
 set -euo pipefail
 B=${B:-build}
@@ -30,8 +31,8 @@ folder() { echo "$B/bench/${1// /-}"; }
 
 build_one() {
     d=$(folder "$1")
-    "$MAKE" --no-print-directory -s DEPS=no B="$d" CC="$2" ARCH="$3" OPT="$4" WARN=-w CORE_EXTRA="$5" "$d/bench-cost" >/dev/null </dev/null ||
-        { echo "bench.sh: $1 does not build: left out" >&2; rm -f "$d/bench-cost"; }
+    "$MAKE" --no-print-directory -s DEPS=no B="$d" CC="$2" ARCH="$3" OPT="$4" WARN=-w CORE_EXTRA="$5" "$d/bench-cost" "$d/bench-tables" >/dev/null </dev/null ||
+        { echo "bench.sh: $1 does not build: left out" >&2; rm -f "$d/bench-cost" "$d/bench-tables"; }
 }
 
 build_all() {
@@ -44,11 +45,11 @@ build_all() {
     wait
 }
 
-# Runs one build under callgrind and prints `build|what|rule|instructions per vertex`.
+# Runs a program of one build under callgrind and prints `build|what|rule|instructions per vertex`.
 count() {
-    [ -x "$(folder "$1")/bench-cost" ] || return 0
+    [ -x "$(folder "$1")/$2" ] || return 0
     rm -f "$work"/cg.*
-    valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file="$work/cg" "$(folder "$1")/bench-cost" count "$air" \
+    valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file="$work/cg" "$(folder "$1")/$2" count "$air" \
         >/dev/null 2>"$work/log" || { cat "$work/log" >&2; return 1; }
     awk -v build="$1" -F '|' '/^desc: Trigger: Client Request: /{sub(/.*Request: /,""); what=$1; rule=$2; n=$3}
         /^totals: /{split($0,t," "); if(n>0) printf "%s|%s|%s|%.1f\n", build, what, rule, t[2]/n; n=0}' $(ls -v "$work"/cg.*)
@@ -70,13 +71,31 @@ machine() {
     return 0
 }
 
-if [ "${1:-}" != cost ]; then
+part=${1:-}
+wanted() { [ -z "$part" ] || [ "$part" = "$1" ]; }
+
+# Atmosphere files and the truth for them, as far as that is there.
+truths() {
+    for air in br16 br17o thin thick mars; do
+        ini=tools/reference/data/$air.ini
+        [ -e "$ini" ] || ini=tools/bench/$air.ini
+        [ ! -e "tools/reference/data/$air.csv" ] || echo "$ini tools/reference/data/$air.csv"
+    done
+}
+
+if wanted errors; then
     echo "== Error against the double-precision reference (single scattering; largest channel error / largest channel, at least 5 % of the dome mean)"
     "$B/bench-errors" tools/bench/br16.ini tools/bench/br17o.ini
 fi
-if [ "${1:-}" != errors ]; then
-    build_all
-    while IFS='|' read -r name rest; do count "$name" </dev/null; done <<<"$builds" >"$work/counts"
+if wanted orders; then
+    echo
+    echo "== Error of all light against the path tracer (ground lit; largest channel error / largest channel, at least 5 % of the class mean)"
+    echo "   columns: sun zenith; 'worst' rows can be replayed with skyvert eval --ground lit"
+    "$B/bench-orders" $(truths)
+fi
+! wanted cost && ! wanted tables || build_all
+if wanted cost; then
+    while IFS='|' read -r name rest; do count "$name" bench-cost </dev/null; done <<<"$builds" >"$work/counts"
     echo
     echo "== Instructions per vertex (callgrind, inside skv_radiance and what it calls; air of br17o.ini)"
     machine
@@ -96,4 +115,29 @@ if [ "${1:-}" != errors ]; then
         printf '\n%-8s %-22s %14s %14s %14s   (%s)\n' scene rule "median ns/vtx" "min ns/vtx" "min ms/dome" "$b"
         "$d" time "$air" | awk -F '|' '/^checksum/{print "checksum " $2; next} {printf "%-8s %-22s %14s %14s %14s\n",$1,$2,$3,$4,$5}'
     done
+fi
+if wanted tables; then
+    builds=$(grep -v trimmed <<<"$builds" || true)
+    while IFS='|' read -r name rest; do count "$name" bench-tables </dev/null; done <<<"$builds" >"$work/counts"
+    echo
+    echo "== All light: sizes, standard tier, four bands (air of br17o.ini)"
+    for b in "gcc avx2" "${2:-gcc sse2}"; do
+        [ ! -x "$(folder "$b")/bench-tables" ] || { "$(folder "$b")/bench-tables" sizes "$air" | grep bytes; break; }
+    done
+    echo
+    echo "== All light: instructions (callgrind)"
+    machine
+    for k in "build|a whole build of a table" "step|the dearest of the 12 steps that took longest" \
+        "dome|per vertex, 2048 from 1 km, elevation 90 to -10, sun zenith 60; the grid's build is in it" "dusk|the same, sun zenith 94"; do
+        printf '\n%s: %s\n' "${k%%|*}" "${k#*|}"
+        table "${k%%|*}"
+    done
+    echo
+    echo "== All light: time (builds: 9, the others 41 interleaved runs of a whole frame of 2048 vertices; one core)"
+    while IFS='|' read -r name rest; do
+        d=$(folder "$name")/bench-tables
+        [ -x "$d" ] || continue
+        printf '\n%-18s %-10s %12s %12s %12s   (%s)\n' what how median least "90 %" "$name"
+        "$d" time "$air" </dev/null | awk -F '|' '/^checksum/{next} {printf "%-18s %-10s %12s %12s %12s\n",$1,$2,$3,$4,$5}'
+    done <<<"$builds"
 fi
