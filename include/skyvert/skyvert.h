@@ -1,16 +1,17 @@
 /// Skyvert: an embedded sky model for flight simulators. Umbrella header, in the order of the data flow.
 ///
 ///     skv_atmosphere --skv_model_build()--> skv_model      once per change
-///     skv_model, observer, lights --skv_frame_begin()--> skv_frame   once per frame
-///     skv_frame, directions --skv_radiance()--> radiance   per vertex
-///     radiance --skv_colour()--> linear RGB, luminance     per vertex
+///     skv_model --skv_table_build()--> skv_table           once per change, for all orders of scattering
+///     skv_model, observer, lights --skv_frame_begin()--> skv_frame, with its table --skv_frame_table()   once per
+///     frame skv_frame, directions --skv_radiance()--> radiance   per vertex radiance --skv_colour()--> linear RGB,
+///     luminance     per vertex
 #ifndef SKYVERT_SKYVERT_H
 #define SKYVERT_SKYVERT_H
 
 #define SKV_VERSION_MAJOR 0
-#define SKV_VERSION_MINOR 1
+#define SKV_VERSION_MINOR 2
 #define SKV_VERSION_PATCH 0
-#define SKV_VERSION       "0.1.0"
+#define SKV_VERSION       "0.2.0"
 
 #include "skyvert/config.h"
 #include "skyvert/status.h"

@@ -52,8 +52,8 @@ typedef struct skv_table_spec {
     int32_t polar[2];    ///< polar angles above the horizon, and as many below, [2, 16]
     int32_t azimuths[2]; ///< azimuths of a half circle, [2, 16]
     float ground_km;     ///< altitude of the ground above the sea, [-12, 12] and below the top; frames may have another
-                     ///< one: 1.5 km apart light is off by 4 % (largest 9 %)
-    int32_t format; ///< skv_table_format
+                         ///< one: 1.5 km apart light is off by 4 % (largest 9 %)
+    int32_t format;      ///< skv_table_format
 } skv_table_spec;
 
 /// Header of a table; the cells follow it in the same buffer. The bytes may be stored and loaded again

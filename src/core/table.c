@@ -115,6 +115,8 @@ skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_
         s.detailed = 8;
     }
     s.samples[1] = skv_diffuse_nodes(model);
+    if (skv_scattering_depth(model) >= 0.5f)
+        s.orders = 0;
     while (s.suns > 8 && skv_table_size(&s, 4) > skv_table_most[kind])
         s.suns--;
     *spec = s;

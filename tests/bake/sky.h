@@ -40,7 +40,8 @@ static inline void sky_begin(bake_sky *sky, const char *preset, float turbidity)
     if (skv_atmosphere_preset(&air, preset_named(preset), 4) != SKV_OK)
         stop("skv_atmosphere_preset");
     air.turbidity = turbidity;
-    if (skv_model_build(&sky->model, &air) != SKV_OK || skv_table_spec_for(&spec, &sky->model, SKV_TABLE_ACCURATE) != SKV_OK)
+    if (skv_model_build(&sky->model, &air) != SKV_OK ||
+        skv_table_spec_for(&spec, &sky->model, SKV_TABLE_ACCURATE) != SKV_OK)
         stop("skv_model_build");
     sky->table_bytes = skv_table_size(&spec, 4);
     const size_t work_bytes = skv_table_work_size(&spec, 4);

@@ -120,7 +120,8 @@ static skv_disc turned_disc(const turn *t, const skv_disc *disc) {
 static skv_status look_up_there(surroundings *around, const skv_frame *frame, size_t i, const float *direction_enu,
                                 float seen[4], float through_air[][4]) {
     const turn there = turn_to(frame, direction_enu, around->hit[i].distance_km);
-    float toward[1 + SKV_LIGHTS_MAX][3], radiance[(1 + SKV_LIGHTS_MAX) * 4], clear[(1 + SKV_LIGHTS_MAX) * 4];
+    float toward[1 + SKV_LIGHTS_MAX][3], radiance[(1 + SKV_LIGHTS_MAX) * 4] = {0};
+    float clear[(1 + SKV_LIGHTS_MAX) * 4] = {0};
     const size_t bands = (size_t)frame->model->bands;
     skv_light light[SKV_LIGHTS_MAX];
     skv_frame at_sea;
