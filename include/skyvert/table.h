@@ -171,7 +171,7 @@ size_t skv_grid_size(const skv_frame *frame);
 /// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT iff the frame was not built or has no table; SKV_ERR_RANGE iff the
 ///         observer is higher than half the air: from there neighbouring directions meet air under suns too different;
 ///         SKV_ERR_SIZE; SKV_ERR_UNSUPPORTED. On error the frame is not written.
-/// Cost:   288 integrations a light (README "Tables"): cheaper than without it from about 500 vertices on.
+/// Cost:   468 integrations a light (README "Tables"): cheaper than without it from about 500 vertices on.
 skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n);
 
 #ifdef __cplusplus

@@ -16,8 +16,8 @@
 #define SKV_GRID_UP   24
 #define SKV_GRID_DOWN 12
 #define SKV_GRID_ROWS (SKV_GRID_UP + SKV_GRID_DOWN)
-/// A block of lanes; 13 gain nothing.
-#define SKV_GRID_AZIMUTHS 8
+/// With 8, one block of lanes, the horizon of a high sun shows a line of 1 %.
+#define SKV_GRID_AZIMUTHS 13
 
 SKV_INLINE float skv_grid_amount(float tau) {
     const float t = tau * (1.0f + tau * (0.5f + tau * (1.0f / 6.0f)));
