@@ -1,7 +1,7 @@
-// Must be refused: 5000 bytes of stack, two calls down.
+// Must be refused: 7000 bytes of stack, two calls down.
 void use(volatile char *);
 static __attribute__((noinline)) void inner(void) {
-    volatile char buffer[5000];
+    volatile char buffer[7000];
     use(buffer);
 }
 void skv_radiance(void);
