@@ -47,7 +47,8 @@ typedef struct skv_quality {
 } skv_quality;
 
 /// The settings of a tier: gauss-exp, Chapman depth, all terms but the ground, N = 4, 6, 8.
-/// SKV_TIER_FAST uses N = 6 by itself where N = 4 is not good enough (observer above 20 km, light below 2 deg).
+/// SKV_TIER_FAST goes over to N = 6 by itself where N = 4 is not good enough: observers above 16 km, lights below 5
+/// deg.
 skv_status skv_quality_tier(skv_quality *quality, skv_tier tier);
 
 /// A distant light. The sun is one, the moon may be another.
@@ -114,11 +115,12 @@ typedef struct skv_frame {
     float height_km; ///< of the observer above the ground, clamped to it
     float top_km;    ///< of the air above the ground
     skv_frame_limits limits;
+    float node[16], weight[16]; ///< gauss-exp: of the quality's samples, or on the way from one number to another
     skv_frame_species species[SKV_SPECIES];
     int32_t breaks;                   ///< altitudes above the ground at which legs are cut, ascending
     float break_km[SKV_FRAME_BREAKS]; ///< (src/core/slices.h)
     uint32_t break_inbound;           ///< bit i: only on legs towards the observer
-    float fog_per_km;                 ///< extinction at the observer where that is fog, else 0
+    float fog_km;                     ///< distance from the observer where legs are cut in fog; 0: there is none
     float inner_scale_km;             ///< of the exponential map of the inner depth
     float map_scale;                  ///< largest scale height over 8 km
     float map_per_km[SKV_SCATTERERS]; ///< extinction that shortens the map of gauss-exp, per unit of relative density

@@ -74,124 +74,110 @@ SKV_INLINE const float *skv_cells_floats(const skv_table *t) {
 /// Most ratios of a cell.
 #define SKV_CELLS_RATIOS ((SKV_TABLE_TERMS - 1) * SKV_BANDS_MAX)
 
-/// What stands at a point per lane: log2 of the mean radiance, ratios [terms - 1][bands] to it.
-typedef struct skv_cells_values {
-    skv_lanes log2_mean[SKV_BANDS_MAX];
-    skv_lanes ratio[SKV_CELLS_RATIOS];
-} skv_cells_values;
+/// Points in a table, per lane: squares of four cells [row][column] around them.
+typedef struct skv_cells_places {
+    int32_t mean[SKV_LANES];     ///< index of the first cell's mean radiance, behind the ground's
+    int32_t ratio[2][SKV_LANES]; ///< index of the first ratio of the first cell of each row
+    int32_t step[2][SKV_LANES];  ///< ratios of a cell of each row
+    skv_lanes weight[4];
+} skv_cells_places;
 
-/// Whole and broken part of coordinates; `most` is the last whole part.
-SKV_INLINE void skv_cells_split(const skv_lanes *x, int most, int32_t whole[], skv_lanes *rest, int range[2]) {
-    range[0] = most;
-    range[1] = 0;
+/// @param x  row, y  column coordinate, within the table.
+SKV_INLINE void skv_cells_find(const skv_table *t, int bands, const skv_lanes *x, const skv_lanes *y,
+                               skv_cells_places *restrict p) {
+    const int32_t rows = t->altitudes - 2, columns = t->suns - 2, suns = t->suns, detailed = t->detailed;
+    const int32_t all = (SKV_TABLE_TERMS - 1) * bands, few = 5 * bands, more = (all - few) * suns;
     SKV_EACH_LANE(l) {
-        int32_t i = (int32_t)x->v[l];
-        i = i > most ? most : i;
-        whole[l] = i;
-        rest->v[l] = x->v[l] - (float)i;
-        range[0] = i < range[0] ? i : range[0];
-        range[1] = i > range[1] ? i : range[1];
+        int32_t i = (int32_t)x->v[l], j = (int32_t)y->v[l];
+        i = i > rows ? rows : i;
+        j = j > columns ? columns : j;
+        const float wx = x->v[l] - (float)i, wy = y->v[l] - (float)j, low = 1.0f - wx;
+        const int32_t full = i < detailed ? i : detailed, next = i + 1 < detailed ? i + 1 : detailed;
+        const int32_t first = i < detailed ? all : few, second = i + 1 < detailed ? all : few;
+        p->weight[1].v[l] = low * wy;
+        p->weight[0].v[l] = low - p->weight[1].v[l];
+        p->weight[3].v[l] = wx * wy;
+        p->weight[2].v[l] = wx - p->weight[3].v[l];
+        p->mean[l] = ((i + 1) * suns + j) * bands;
+        p->ratio[0][l] = i * suns * few + full * more + j * first;
+        p->ratio[1][l] = (i + 1) * suns * few + next * more + j * second;
+        p->step[0][l] = first;
+        p->step[1][l] = second;
     }
 }
 
-/// Weights of four cells [row][column], per lane.
-typedef struct skv_cells_weights {
-    skv_lanes of[4];
-} skv_cells_weights;
-
-/// out += the weighted sum of n numbers of four cells; of the first row's two where there is no second one.
-SKV_INLINE void skv_cells_weigh(const float *const number[4], int n, const skv_cells_weights *restrict w,
-                                skv_lanes *restrict out) {
-    for (int i = 0; i < n; i++) {
-        const float a = number[0][i], b = number[1][i], c = number[2][i], d = number[3][i];
-        SKV_EACH_LANE(l)
-        out[i].v[l] += w->of[0].v[l] * a + w->of[1].v[l] * b + w->of[2].v[l] * c + w->of[3].v[l] * d;
-    }
-}
-
-SKV_INLINE void skv_cells_weigh_row(const float *const number[4], int n, const skv_cells_weights *restrict w,
-                                    skv_lanes *restrict out) {
-    for (int i = 0; i < n; i++) {
-        const float a = number[0][i], b = number[1][i];
-        SKV_EACH_LANE(l) out[i].v[l] += w->of[0].v[l] * a + w->of[1].v[l] * b;
-    }
-}
-
-/// Adds the cells [row][column] to [row + 1][column + 1]; packed numbers become floats first, many at a time.
-SKV_INLINE void skv_cells_add(const skv_table *t, int bands, int row, int column, const skv_cells_weights *w,
-                              skv_cells_values *restrict out) {
-    const size_t wide = (size_t)bands, ratios = (skv_cells_count(t) + t->suns) * wide;
-    const int n = 5 * bands, all = (SKV_TABLE_TERMS - 1) * bands;
+/// The numbers of four cells as floats: those of a packed table are kept for the next ray, which often needs the same.
+typedef struct skv_cells_square {
+    int32_t at; ///< mean index of the first cell; -1: none yet
     const float *mean[4], *ratio[4];
-    float means[4][SKV_BANDS_MAX], unpacked[4][SKV_CELLS_RATIOS];
+    float means[4][SKV_BANDS_MAX], ratios[4][SKV_CELLS_RATIOS];
+} skv_cells_square;
+
+SKV_INLINE void skv_cells_load(const skv_table *t, int bands, const skv_cells_places *p, int l,
+                               skv_cells_square *square) {
+    const int32_t row = t->suns * bands, logs = (t->altitudes + 1) * row;
+    square->at = p->mean[l];
     for (int i = 0; i < 4; i++) {
-        const int r = row + i / 2, c = column + i % 2, count = r < t->detailed ? all : n;
-        const size_t at = ((size_t)(r + 1) * t->suns + (size_t)c) * wide, from = ratios + skv_cells_ratios(t, r, c);
-        mean[i] = means[i];
-        ratio[i] = unpacked[i];
+        const int32_t step = p->step[i / 2][l], ratio = p->ratio[i / 2][l] + i % 2 * step;
+        const int32_t mean = square->at + i / 2 * row + i % 2 * bands;
         if (t->format == SKV_TABLE_FLOAT) {
-            mean[i] = skv_cells_floats(t) + at;
-            ratio[i] = skv_cells_floats(t) + from;
+            square->mean[i] = skv_cells_floats(t) + mean;
+            square->ratio[i] = skv_cells_floats(t) + logs + ratio;
             continue;
         }
-        const uint16_t *const code = skv_cells_codes(t) + at;
-        const int8_t *const packed = (const int8_t *)(const void *)(skv_cells_codes(t) + ratios) + (from - ratios);
-        for (int b = 0; b < bands; b++)
-            means[i][b] = (float)code[b];
-        SKV_EACH_OF(k, count) unpacked[i][k] = (float)packed[k];
+        const uint16_t *const code = skv_cells_codes(t);
+        const int8_t *const packed = (const int8_t *)(const void *)(code + logs) + ratio;
+        square->mean[i] = square->means[i];
+        square->ratio[i] = square->ratios[i];
+        SKV_EACH_OF(b, bands) square->means[i][b] = (float)code[mean + b];
+        if (step > 5 * bands)
+            SKV_EACH_OF(k, (SKV_TABLE_TERMS - 1) * bands) square->ratios[i][k] = (float)packed[k];
+        else
+            SKV_EACH_OF(k, 5 * bands) square->ratios[i][k] = (float)packed[k];
     }
-    skv_cells_weigh(mean, bands, w, out->log2_mean);
-    skv_cells_weigh(ratio, n, w, out->ratio);
-    for (int i = 0; i < 4; i++)
-        ratio[i] += n;
-    if (row + 1 < t->detailed)
-        skv_cells_weigh(ratio, all - n, w, out->ratio + n);
-    else if (row < t->detailed)
-        skv_cells_weigh_row(ratio, all - n, w, out->ratio + n);
 }
 
-/// Bilinear values at points, per lane. It goes over the cells that some lane touches, not over lanes: neighbouring
-/// rays share most of them, and a weight of 0 changes no bit.
-/// @param x  row, y  column coordinate.
-/// @return whether some lane has fine ratios; if none, these are 0.
-SKV_INLINE int skv_cells_values_at(const skv_table *t, int bands, const skv_lanes *x, const skv_lanes *y,
-                                   skv_cells_values *out) {
-    int32_t row[SKV_LANES], column[SKV_LANES];
-    int rows[2], columns[2];
-    skv_lanes wx, wy;
-    skv_cells_split(x, t->altitudes - 2, row, &wx, rows);
-    skv_cells_split(y, t->suns - 2, column, &wy, columns);
-    const int fine = rows[0] < t->detailed, n = (fine ? SKV_TABLE_TERMS - 1 : 5) * bands;
-    for (int b = 0; b < bands; b++)
-        SKV_EACH_LANE(l) out->log2_mean[b].v[l] = 0.0f;
-    for (int i = 0; i < n; i++)
-        SKV_EACH_LANE(l) out->ratio[i].v[l] = 0.0f;
-    for (int r = rows[0]; r <= rows[1]; r++)
-        for (int c = columns[0]; c <= columns[1]; c++) {
-            skv_cells_weights w;
-            uint32_t any = 0;
-            SKV_EACH_LANE(l) {
-                const float here = row[l] == r && column[l] == c ? 1.0f : 0.0f;
-                const float high = here * wx.v[l], low = here - high;
-                w.of[1].v[l] = low * wy.v[l];
-                w.of[0].v[l] = low - w.of[1].v[l];
-                w.of[3].v[l] = high * wy.v[l];
-                w.of[2].v[l] = high - w.of[3].v[l];
-                any |= skv_bits(here);
-            }
-            if (any != 0)
-                skv_cells_add(t, bands, r, c, &w, out);
-        }
-    if (t->format == SKV_TABLE_PACKED) {
-        for (int b = 0; b < bands; b++)
-            SKV_EACH_LANE(l)
-        out->log2_mean[b].v[l] = out->log2_mean[b].v[l] * (1.0f / SKV_CELLS_STEPS) + SKV_CELLS_FLOOR;
-        for (int i = 0; i < n; i++) {
-            const float scale = t->ratio_scale[i / bands];
-            SKV_EACH_LANE(l) out->ratio[i].v[l] *= scale;
-        }
+/// Weighted sums of n numbers of four cells, or of the first two. The numbers of a cell stand side by side: vectors run
+/// over them, whatever squares the rays of a block are in. n is a constant for the compiler.
+SKV_INLINE void skv_cells_mix(const float *const number[4], int first, int n, const float w[4], float *restrict out) {
+    const float *const a = number[0] + first, *const b = number[1] + first;
+    const float *const c = number[2] + first, *const d = number[3] + first;
+    const float wa = w[0], wb = w[1], wc = w[2], wd = w[3];
+    SKV_EACH_OF(k, n) out[first + k] = wa * a[k] + wb * b[k] + wc * c[k] + wd * d[k];
+}
+
+SKV_INLINE void skv_cells_mix_row(const float *const number[4], int first, int n, const float w[4],
+                                  float *restrict out) {
+    const float *const a = number[0] + first, *const b = number[1] + first;
+    const float wa = w[0], wb = w[1];
+    SKV_EACH_OF(k, n) out[first + k] = wa * a[k] + wb * b[k];
+}
+
+/// What stands at a place: log2 of the mean radiance, [bands] (of a packed table a code), and ratios [terms - 1][bands]
+/// to it; of a packed table these are still to be multiplied by ratio_scale.
+/// @return whether there are fine ratios: they fade out towards the first row that has none, and are not written
+/// beyond.
+SKV_INLINE int skv_cells_at(const skv_table *t, int bands, const skv_cells_places *p, int l, skv_cells_square *square,
+                            float *restrict mean, float *restrict ratio) {
+    const int few = 5 * bands, all = (SKV_TABLE_TERMS - 1) * bands;
+    const float w[4] = {p->weight[0].v[l], p->weight[1].v[l], p->weight[2].v[l], p->weight[3].v[l]};
+    if (p->mean[l] != square->at)
+        skv_cells_load(t, bands, p, l, square);
+    skv_cells_mix(square->mean, 0, bands, w, mean);
+    if (p->step[1][l] == all) {
+        skv_cells_mix(square->ratio, 0, all, w, ratio);
+        return 1;
     }
-    return fine;
+    skv_cells_mix(square->ratio, 0, few, w, ratio);
+    if (p->step[0][l] == few)
+        return 0;
+    skv_cells_mix_row(square->ratio, few, SKV_TABLE_FINE * bands, w, ratio);
+    return 1;
+}
+
+/// log2 of a mean radiance from what the cells of a table give.
+SKV_INLINE float skv_cells_log2(const skv_table *t, float mean) {
+    return t->format == SKV_TABLE_FLOAT ? mean : mean * (1.0f / SKV_CELLS_STEPS) + SKV_CELLS_FLOOR;
 }
 
 /// log2 of the diffuse irradiance of the ground per unit of the light's, at mu_s.

@@ -3,9 +3,9 @@
 /// The source is the incoming radiance of the table's cells weighed by the moments of each phase function. With the
 /// view direction v, the sun s and up z at a sample, mu = v.z, q = v.s - mu mu_s:
 ///
-///     c0 + a1 (k1 mu + k2 q) + a2 (k3 P2(mu) + k4 mu q + k5 (2 q^2 - (1-mu_s^2)(1-mu^2)))
-///        + a3 k6 P3(mu) + a4 k7 P4(mu) + k8 aureole(v.s)
+///     c0 (1 + a1 (k1 mu + k2 q) + a2 (k3 P2(mu) + k4 mu q + k5 (2 q^2 - (1-mu_s^2)(1-mu^2))) + fine part)
 ///
+/// per species; the fine part (fine.h) is the seven numbers that detailed rows have.
 /// No angle is divided by: with the sun in the zenith nothing has to be decided.
 #include "core/cells.h"
 #include "core/fine.h"
@@ -23,59 +23,106 @@ typedef struct skv_diffuse_samples {
     skv_lanes density[SKV_SCATTERERS]; ///< that scatters, times path length
 } skv_diffuse_samples;
 
-/// What the samples' cells send towards the observer: polynomials in which the numbers of a cell are coefficients.
-/// @param k     values of the cells; log2_mean already less the optical depth of the view.
-SKV_INLINE void skv_diffuse_source(const skv_frame *frame, unsigned has, int bands, int fine,
-                                   const skv_diffuse_samples *q, const skv_cells_values *k,
-                                   const skv_lanes aureole[SKV_SCATTERERS], skv_lanes radiance[]) {
-    skv_lanes basis[SKV_SCATTERERS][SKV_TABLE_FINE];
-    for (int s = SKV_AEROSOL; s < SKV_SCATTERERS && fine; s++)
-        if (SKV_PRESENT(has, s))
-            SKV_EACH_LANE(l) {
-                float f[SKV_TABLE_FINE];
-                skv_fine_basis(frame->diffuse.moment[s], aureole[s].v[l], q->mu.v[l], q->q.v[l], q->mu_s.v[l], f);
-                for (int i = 0; i < SKV_TABLE_FINE; i++)
-                    basis[s][i].v[l] = f[i];
-            }
-    for (int b = 0; b < bands; b++) {
-        skv_lanes one, two, sum;
+/// The functions of a sample that the ratios of its cell are coefficients of, per species, times the species' moments
+/// and the scale of the ratios.
+typedef struct skv_diffuse_basis {
+    skv_lanes of[SKV_SCATTERERS][SKV_TABLE_TERMS - 1];
+} skv_diffuse_basis;
+
+SKV_INLINE void skv_diffuse_bases(const skv_frame *frame, unsigned has, const skv_diffuse_samples *q,
+                                  const skv_lanes aureole[SKV_SCATTERERS], skv_diffuse_basis *restrict f) {
+    const float *const scale = frame->diffuse.table->ratio_scale;
+    SKV_EACH_SCATTERER(s) {
+        const float *const a = frame->diffuse.moment[s];
+        if (!SKV_PRESENT(has, s))
+            continue;
         SKV_EACH_LANE(l) {
             const float mu = q->mu.v[l], x = q->q.v[l], mu_s = q->mu_s.v[l], mu2 = mu * mu;
             const float xy = 2.0f * x * x - (1.0f - mu_s * mu_s) * (1.0f - mu2);
-            one.v[l] = k->ratio[b].v[l] * mu + k->ratio[bands + b].v[l] * x;
-            two.v[l] = k->ratio[2 * bands + b].v[l] * (1.5f * mu2 - 0.5f) + k->ratio[3 * bands + b].v[l] * (mu * x) +
-                       k->ratio[4 * bands + b].v[l] * xy;
-            sum.v[l] = 0.0f;
+            f->of[s][0].v[l] = scale[0] * a[0] * mu;
+            f->of[s][1].v[l] = scale[1] * a[0] * x;
+            f->of[s][2].v[l] = scale[2] * a[1] * (1.5f * mu2 - 0.5f);
+            f->of[s][3].v[l] = scale[3] * a[1] * (mu * x);
+            f->of[s][4].v[l] = scale[4] * a[1] * xy;
+            if (s != SKV_RAYLEIGH) {
+                float fine[SKV_TABLE_FINE];
+                skv_fine_basis(a, aureole[s].v[l], mu, x, mu_s, fine);
+                for (int i = 0; i < SKV_TABLE_FINE; i++)
+                    f->of[s][5 + i].v[l] = scale[5 + i] * fine[i];
+            }
         }
-        if (SKV_PRESENT(has, SKV_RAYLEIGH)) {
-            const float scattering = frame->scattering_per_km[SKV_RAYLEIGH][b];
-            SKV_EACH_LANE(l)
-            sum.v[l] = scattering * q->density[SKV_RAYLEIGH].v[l] * skv_maxf(1.0f + 0.1f * two.v[l], 0.0f);
-        }
-        for (int s = SKV_AEROSOL; s < SKV_SCATTERERS; s++) {
-            const float *const a = frame->diffuse.moment[s], scattering = frame->scattering_per_km[s][b];
-            skv_lanes more;
-            if (!SKV_PRESENT(has, s))
-                continue;
-            SKV_EACH_LANE(l) more.v[l] = 1.0f + a[0] * one.v[l] + a[1] * two.v[l];
-            for (int i = 0; i < SKV_TABLE_FINE && fine; i++)
-                SKV_EACH_LANE(l) more.v[l] += k->ratio[(5 + i) * bands + b].v[l] * basis[s][i].v[l];
-            SKV_EACH_LANE(l) sum.v[l] += scattering * q->density[s].v[l] * skv_maxf(more.v[l], 0.0f);
-        }
-        SKV_EACH_LANE(l) radiance[b].v[l] += sum.v[l] * k->log2_mean[b].v[l];
     }
 }
 
-SKV_INLINE void skv_diffuse_node(const skv_frame *frame, unsigned has, int bands, const skv_columns *c,
-                                 const skv_lanes aureole[SKV_SCATTERERS], const skv_diffuse_samples *q,
-                                 skv_lanes radiance[]) {
-    skv_cells_values k;
-    const int fine = skv_cells_values_at(frame->diffuse.table, bands, &q->x, &q->y, &k);
-    // Mean radiance of the cell, as far as it reaches the observer: both logarithms in one exponential.
+/// What the samples' cells send towards the observer, ray by ray.
+/// @param[out] log2_mean  of the cells' radiance.
+/// @param[out] sent       per species and band, relative to it.
+SKV_INLINE void skv_diffuse_read(const skv_table *t, unsigned has, int bands, const skv_diffuse_samples *q,
+                                 const skv_diffuse_basis *f, skv_lanes log2_mean[restrict],
+                                 skv_lanes sent[restrict SKV_SCATTERERS][SKV_BANDS_MAX]) {
+    skv_cells_places p;
+    skv_cells_square square;
+    square.at = -1;
+    skv_cells_find(t, bands, &q->x, &q->y, &p);
+    for (int l = 0; l < SKV_LANES; l++) {
+        float mean[SKV_BANDS_MAX], ratio[SKV_CELLS_RATIOS];
+        const int terms = skv_cells_at(t, bands, &p, l, &square, mean, ratio) ? SKV_TABLE_TERMS - 1 : 5;
+        for (int b = 0; b < bands; b++)
+            log2_mean[b].v[l] = mean[b];
+        SKV_EACH_SCATTERER(s) {
+            const int first = s == SKV_RAYLEIGH ? 2 : 0, last = s == SKV_RAYLEIGH ? 5 : terms;
+            float sum[SKV_BANDS_MAX];
+            if (!SKV_PRESENT(has, s))
+                continue;
+            SKV_EACH_OF(b, bands) sum[b] = 1.0f;
+            for (int k = first; k < last; k++) {
+                const float x = f->of[s][k].v[l];
+                SKV_EACH_OF(b, bands) sum[b] += x * ratio[k * bands + b];
+            }
+            for (int b = 0; b < bands; b++)
+                sent[s][b].v[l] = sum[b];
+        }
+    }
     for (int b = 0; b < bands; b++)
+        SKV_EACH_LANE(l) log2_mean[b].v[l] = skv_cells_log2(t, log2_mean[b].v[l]);
+}
+
+static SKV_NOINLINE void skv_diffuse_cells(const skv_frame *frame, const skv_lanes aureole[SKV_SCATTERERS],
+                                           const skv_diffuse_samples *q, skv_lanes log2_mean[restrict],
+                                           skv_lanes sent[restrict SKV_SCATTERERS][SKV_BANDS_MAX]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    skv_diffuse_basis basis;
+    skv_diffuse_bases(frame, has, q, aureole, &basis);
+#if SKV_BANDS == 0
+    if ((has & SKV_HAS_FOUR) != 0)
+        skv_diffuse_read(frame->diffuse.table, has, 4, q, &basis, log2_mean, sent);
+    else
+        skv_diffuse_read(frame->diffuse.table, has, 3, q, &basis, log2_mean, sent);
+#else
+    skv_diffuse_read(frame->diffuse.table, has, SKV_BANDS, q, &basis, log2_mean, sent);
+#endif
+}
+
+static SKV_NOINLINE void skv_diffuse_node(const skv_frame *frame, const skv_columns *c,
+                                          const skv_lanes aureole[SKV_SCATTERERS], const skv_diffuse_samples *q,
+                                          skv_lanes radiance[restrict]) {
+    const unsigned has = frame->has & SKV_HAS_BUILT;
+    const int bands = SKV_BANDS_OF(has);
+    skv_lanes log2_mean[SKV_BANDS_MAX], sent[SKV_SCATTERERS][SKV_BANDS_MAX];
+    skv_diffuse_cells(frame, aureole, q, log2_mean, sent);
+    for (int b = 0; b < bands; b++) {
+        skv_lanes sum;
+        SKV_EACH_LANE(l) sum.v[l] = 0.0f;
+        SKV_EACH_SCATTERER(s)
+        if (SKV_PRESENT(has, s)) {
+            const float scattering = frame->scattering_per_km[s][b];
+            SKV_EACH_LANE(l) sum.v[l] += scattering * q->density[s].v[l] * skv_maxf(sent[s][b].v[l], 0.0f);
+        }
+        // Mean radiance of the cell, as far as it reaches the observer: both logarithms in one exponential.
         SKV_EACH_LANE(l)
-    k.log2_mean[b].v[l] = skv_decay(&frame->limits, k.log2_mean[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
-    skv_diffuse_source(frame, has, bands, fine, q, &k, aureole, radiance);
+        log2_mean[b].v[l] = skv_decay(&frame->limits, log2_mean[b].v[l] - skv_optical_depth_log2e(frame, has, c, b, l));
+        SKV_EACH_LANE(l) radiance[b].v[l] += sum.v[l] * log2_mean[b].v[l];
+    }
 }
 
 /// One slice of a leg, [a, b], of each lane.
@@ -125,14 +172,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
             skv_scattering_density(frame, has, &p, s, &q.density[s]);
             SKV_EACH_LANE(l) q.density[s].v[l] *= ds.v[l];
         }
-#if SKV_BANDS == 0
-        if (bands == 4)
-            skv_diffuse_node(frame, has, 4, &c, aureole, &q, radiance);
-        else
-            skv_diffuse_node(frame, has, 3, &c, aureole, &q, radiance);
-#else
-        skv_diffuse_node(frame, has, SKV_BANDS, &c, aureole, &q, radiance);
-#endif
+        skv_diffuse_node(frame, &c, aureole, &q, radiance);
     }
 }
 

@@ -80,7 +80,7 @@ int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_s
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const int ground = SKV_TERM_GROUND && (frame->quality.terms & SKV_WITH_GROUND) != 0 && frame->lights > 0;
     int bad = 0;
-    const int grid = SKV_TERM_DIFFUSE && frame->diffuse.grid && !rays->length_km;
+    const int grid = frame->quality.rule != SKV_GAUSS_EXP && skv_grid_used(frame, rays);
     if (!ground && !grid && !sky->transmittance && frame->lights > 0)
         return 0;
     for (size_t first = 0; first < n; first += SKV_LANES) {

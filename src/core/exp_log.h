@@ -63,11 +63,26 @@ SKV_INLINE float skv_exp2f_d3(float x) {
     return skv_exp2_join(x, s.exponent, p);
 }
 
+/// Degree of the exponential of the inner loops: 3 (1e-4), 4 (3e-6) or 5 (2e-7). `make trade` measures what each is
+/// worth.
+#ifndef SKV_EXP2_DEGREE
+#define SKV_EXP2_DEGREE 4
+#endif
+
 /// 2^x for x in [-126, 127], unguarded: skv_exp2f_d4() at half its price for callers that have clamped x.
 SKV_INLINE float skv_exp2f_inner(float x) {
     const float shifted = x + SKV_EXP2_SHIFT;
     const float f = x - (shifted - SKV_EXP2_SHIFT);
+#if SKV_EXP2_DEGREE == 3
+    const float p = 1.0f + f * (SKV_EXP2_D3_0 + f * (SKV_EXP2_D3_1 + f * SKV_EXP2_D3_2));
+#elif SKV_EXP2_DEGREE == 4
     const float p = 1.0f + f * (SKV_EXP2_D4_0 + f * (SKV_EXP2_D4_1 + f * (SKV_EXP2_D4_2 + f * SKV_EXP2_D4_3)));
+#elif SKV_EXP2_DEGREE == 5
+    const float p = 1.0f + f * (SKV_EXP2_D5_0 +
+                                f * (SKV_EXP2_D5_1 + f * (SKV_EXP2_D5_2 + f * (SKV_EXP2_D5_3 + f * SKV_EXP2_D5_4))));
+#else
+#error "SKV_EXP2_DEGREE: 3, 4 or 5"
+#endif
     return skv_from_bits(skv_bits(p) + (skv_bits(shifted) << 23));
 }
 

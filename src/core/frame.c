@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "core/gauss_legendre.h"
 #include "core/lanes.h"
 
 skv_status skv_quality_tier(skv_quality *quality, skv_tier tier) {
@@ -125,35 +126,65 @@ static void skv_frame_break(skv_frame *f, float z_km, uint32_t inbound) {
     f->break_inbound = (f->break_inbound & ~(1u << i)) | inbound << i;
 }
 
-/// Where legs are cut (slices.h): corners; the upper end of a thin layer; where opaque air ends, seen from above.
-static void skv_frame_breaks(skv_frame *f) {
-    float fog = 0.0f, lowest = 1.0f;
+/// Sine of the elevation of the lowest light.
+static float skv_frame_lowest(const skv_frame *f) {
+    float lowest = 1.0f;
     for (int32_t i = 0; i < f->lights; i++)
         lowest = skv_minf(lowest, f->light[i].mu_s);
+    return lowest;
+}
+
+/// 0 up to `from`, 1 beyond `to`, smooth between.
+static float skv_smooth(float x, float from, float to) {
+    const float t = skv_clampf((x - from) / (to - from), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/// Cuts for one layer. Each rises from the ground as the reason for it grows: one that came in at its full height would
+/// be seen as a jump of the whole sky.
+static void skv_frame_layer_breaks(skv_frame *f, int s, float lowest) {
+    const float scale = f->model->species[s].scale_height_km, dense = f->map_per_km[s];
+    // Optical depth of half the horizontal ray at the ground.
+    const float half = dense * skv_sqrtf(1.5707963f * f->radius_km * scale);
+    if (f->model->species[s].column == 0)
+        skv_frame_break(f, 6.0f * scale * skv_smooth(-scale / (8.0f * f->map_scale), -0.09f, -0.06f), 0);
+    // Rayleigh's layer is as thick as the map expects: it needs the cut later.
+    const float from = s == SKV_RAYLEIGH ? 10.0f : 5.0f;
+    const float opaque = skv_smooth(half, from, 2.0f * from);
+    // From above the flight levels, rays through the dense half of the air cross this altitude.
+    if (s == SKV_RAYLEIGH)
+        skv_frame_break(f,
+                        1.5f * scale * skv_smooth(half, 1.5f, 2.5f) * (1.0f - opaque) *
+                            skv_smooth(f->height_km, 2.0f * scale, 3.0f * scale),
+                        1);
+    if (opaque > 0.0f)
+        skv_frame_break(f, scale * skv_logf(half) * opaque, 1);
+    if (half > 20.0f)
+        skv_frame_break(f, 0.5f * scale * skv_logf(half) * skv_smooth(half, 20.0f, 40.0f), 1);
+    // Where a low light is in gas that hides it, what there is comes from where it is no longer hidden.
+    if (s == SKV_RAYLEIGH && opaque > 0.0f)
+        skv_frame_break(f, scale * skv_logf(half) * opaque * (1.0f - skv_smooth(lowest, 0.2f, 0.35f)), 0);
+}
+
+/// Optical depth from the observer where legs in fog are cut.
+#define SKV_FOG_DEPTH 6.0f
+
+/// Where legs are cut (slices.h): corners; the upper end of a thin layer; where opaque air ends, seen from above.
+static void skv_frame_breaks(skv_frame *f) {
+    const float lowest = skv_frame_lowest(f);
+    float fog = 0.0f;
     for (int i = 0; i < f->model->breaks; i++)
         skv_frame_break(f, f->model->break_km[i] - f->ground_km, 0);
     for (int s = 0; s < SKV_SCATTERERS; s++) {
         const skv_species *sp = &f->model->species[s];
         if (f->species[s].kind == SKV_PROFILE_NONE || sp->column == SKV_COLUMN_KNOTS)
             continue;
-        const float scale = sp->scale_height_km, dense = f->map_per_km[s];
-        // Optical depth of half the horizontal ray at the ground.
-        const float half = dense * skv_sqrtf(1.5707963f * f->radius_km * scale);
-        if (sp->column == 0 && scale < 0.0625f * f->map_scale * 8.0f)
-            skv_frame_break(f, 6.0f * scale, 0);
-        // Rayleigh's layer is as thick as the map expects: it needs the cut later.
-        // From above the flight levels, rays through the dense half of the air cross this altitude.
-        if (s == SKV_RAYLEIGH && half > 2.0f && half <= 10.0f && f->height_km > 2.4f * scale)
-            skv_frame_break(f, 1.5f * scale, 1);
-        // Where a low light is in gas that hides it, what there is comes from where it is no longer hidden.
-        const uint32_t inbound = s == SKV_RAYLEIGH && lowest < 0.25f ? 0 : 1;
-        if (half > (s == SKV_RAYLEIGH ? 10.0f : 5.0f))
-            skv_frame_break(f, scale * skv_logf(half), inbound);
-        if (half > 30.0f)
-            skv_frame_break(f, 0.5f * scale * skv_logf(half), 1);
-        fog += dense * skv_exp2f(-f->height_km * sp->inv_scale_log2e);
+        skv_frame_layer_breaks(f, s, lowest);
+        fog += f->map_per_km[s] * skv_exp2f(-f->height_km * sp->inv_scale_log2e);
     }
-    f->fog_per_km = fog * f->map_scale > 0.1f ? fog : 0.0f;
+    // From the observer, where the fog begins to matter, far out.
+    const float sure = skv_smooth(fog * f->map_scale, 0.1f, 0.2f);
+    f->fog_km = sure > 0.0f ? SKV_FOG_DEPTH / (fog * sure) : 0.0f;
 }
 
 static uint32_t skv_frame_bits(const skv_frame *f) {
@@ -170,14 +201,49 @@ static uint32_t skv_frame_bits(const skv_frame *f) {
     return has & SKV_HAS_BUILT;
 }
 
+/// Six nodes between Gauss' four, with two more of weight 0, and his six: exact for polynomials of degree 5 on the way,
+/// so that no input makes the sky jump. @param t  [0, 1].
+static void skv_frame_nodes_between(skv_frame *f, float t) {
+    // Distances from the middle: of the four, the two that do not move, and of the six; then their squares.
+    static const float from[3] = {0.430568156f, 0.330604693f, 0.169990522f};
+    static const float to[3] = {0.466234757f, 0.330604693f, 0.119309593f};
+    float x[3], y[3];
+    for (int i = 0; i < 3; i++) {
+        x[i] = from[i] + t * (to[i] - from[i]);
+        y[i] = x[i] * x[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        const float u = y[(i + 1) % 3], v = y[(i + 2) % 3];
+        // Integrals over [-1/2, 1/2] of x^4, x^2 and 1.
+        const float w = 0.5f * (0.0125f - (u + v) * (1.0f / 12.0f) + u * v) / ((y[i] - u) * (y[i] - v));
+        f->node[i] = 0.5f - x[i];
+        f->node[5 - i] = 0.5f + x[i];
+        f->weight[i] = f->weight[5 - i] = w;
+    }
+}
+
+/// The nodes of the rule gauss-exp. Four are not enough at height and under a low light: there the fast tier has six.
+static void skv_frame_nodes(skv_frame *f, float lowest) {
+    skv_quality *const q = &f->quality;
+    const float high = skv_smooth(f->height_km / f->map_scale, 16.0f, 20.0f);
+    const float low = 1.0f - skv_smooth(lowest, 0.0349f, 0.0872f), t = 1.0f - (1.0f - high) * (1.0f - low);
+    if (q->rule != SKV_GAUSS_EXP)
+        return;
+    if (q->samples == 4 && t > 0.0f) {
+        q->samples = 6;
+        skv_frame_nodes_between(f, t);
+        return;
+    }
+    for (int i = 0; i < q->samples; i++) {
+        f->node[i] = skv_gauss_node[skv_gauss_offset(q->samples) + i];
+        f->weight[i] = skv_gauss_weight[skv_gauss_offset(q->samples) + i];
+    }
+}
+
 /// What the request has to become where the fast tier or the closed form does not hold.
 static skv_status skv_frame_adjust(skv_frame *f) {
     skv_quality *q = &f->quality;
-    float lowest = 1.0f;
-    for (int32_t i = 0; i < f->lights; i++)
-        lowest = skv_minf(lowest, f->light[i].mu_s);
-    if (q->rule == SKV_GAUSS_EXP && q->samples == 4 && (f->height_km > 20.0f * f->map_scale || lowest < 0.0349f))
-        q->samples = 6;
+    skv_frame_nodes(f, skv_frame_lowest(f));
     // The cut at the top is a small correction of the closed form only where little air is above it.
     int closed = f->model->chapman_valid;
     for (int s = 0; s < SKV_SCATTERERS; s++)

@@ -117,7 +117,7 @@ SKV_INLINE void skv_samples_general(const skv_frame *frame, unsigned has, const 
 SKV_INLINE void skv_gauss_kernel(const skv_frame *frame, unsigned has, int general, const skv_legs *leg, int count,
                                  const float irradiance[4]) {
     const int n = frame->quality.samples, bands = SKV_BANDS_OF(has);
-    const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
+    const float *const node = frame->node, *const weight = frame->weight;
     skv_samples q;
     skv_lanes e0, rm, rms, l_km, k, whole, grown, radiance[SKV_BANDS_MAX];
     skv_legs_start(frame, has, leg, &q.p, &e0, &rm, &rms);
@@ -168,23 +168,66 @@ SKV_INLINE unsigned skv_legs_down(const skv_legs *leg) {
 }
 
 #if SKV_SPECIALISE
-/// The kernel for what most frames are; functions of their own, so that their stacks do not add up.
-enum { SKV_HAS_TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT, SKV_HAS_ALL = SKV_HAS_TWO | SKV_HAS_OZONE };
+/// The kernel for what most frames are; functions of their own, so that their stacks do not add up. CUT costs little
+/// and is exact where it is not needed.
+enum {
+    SKV_HAS_TWO = SKV_HAS_RAYLEIGH | SKV_HAS_AEROSOL | SKV_HAS_CUT,
+    SKV_HAS_ALL = SKV_HAS_TWO | SKV_HAS_OZONE,
+    /// All species that are compiled in, for a build that was trimmed to what it needs.
+    SKV_HAS_TRIMMED = (SKV_HAS_BUILT & ((1 << SKV_SPECIES) - 1)) | SKV_HAS_CUT | (SKV_BANDS == 4 ? SKV_HAS_FOUR : 0)
+};
 
 #define SKV_GAUSS_KERNEL(name, bits)                                                                                   \
     static SKV_NOINLINE void name(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) { \
         skv_gauss_kernel(frame, (unsigned)(bits), 0, leg, count, irradiance);                                          \
+    }                                                                                                                  \
+    static SKV_NOINLINE void name##_down(const skv_frame *frame, const skv_legs *leg, int count,                       \
+                                         const float irradiance[4]) {                                                  \
+        skv_gauss_kernel(frame, (unsigned)(bits) | SKV_HAS_DOWN, 0, leg, count, irradiance);                           \
     }
-#if SKV_BANDS != 4
+/// Runs one of the pair and returns where `has` is what it was made for.
+#define SKV_GAUSS_TRY(name, bits)                                                                                      \
+    if ((has & ~(unsigned)SKV_HAS_DOWN) == (unsigned)(bits)) {                                                         \
+        ((has & SKV_HAS_DOWN) != 0 ? name##_down : name)(frame, leg, count, irradiance);                               \
+        return 1;                                                                                                      \
+    }
+#if SKV_BANDS != 0
+SKV_GAUSS_KERNEL(skv_gauss_trimmed, SKV_HAS_TRIMMED)
+#else
 SKV_GAUSS_KERNEL(skv_gauss_two_3, SKV_HAS_TWO)
+SKV_GAUSS_KERNEL(skv_gauss_two_4, SKV_HAS_TWO | SKV_HAS_FOUR)
 #if SKV_TERM_OZONE
 SKV_GAUSS_KERNEL(skv_gauss_all_3, SKV_HAS_ALL)
-#endif
-#endif
-#if SKV_TERM_OZONE && SKV_BANDS != 3
 SKV_GAUSS_KERNEL(skv_gauss_all_4, SKV_HAS_ALL | SKV_HAS_FOUR)
-SKV_GAUSS_KERNEL(skv_gauss_all_4_down, SKV_HAS_ALL | SKV_HAS_FOUR | SKV_HAS_DOWN)
 #endif
+#endif
+
+/// @return whether there is a kernel for it, which has run then.
+static int skv_gauss_special(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+                             const float irradiance[4]) {
+    has |= SKV_HAS_CUT;
+#if SKV_BANDS != 0
+    SKV_GAUSS_TRY(skv_gauss_trimmed, SKV_HAS_TRIMMED)
+#else
+    SKV_GAUSS_TRY(skv_gauss_two_3, SKV_HAS_TWO)
+    SKV_GAUSS_TRY(skv_gauss_two_4, SKV_HAS_TWO | SKV_HAS_FOUR)
+#if SKV_TERM_OZONE
+    SKV_GAUSS_TRY(skv_gauss_all_3, SKV_HAS_ALL)
+    SKV_GAUSS_TRY(skv_gauss_all_4, SKV_HAS_ALL | SKV_HAS_FOUR)
+#endif
+#endif
+    return 0;
+}
+#else
+static inline int skv_gauss_special(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
+                                    const float irradiance[4]) {
+    (void)frame;
+    (void)has;
+    (void)leg;
+    (void)count;
+    (void)irradiance;
+    return 0;
+}
 #endif
 
 static SKV_NOINLINE void skv_gauss_any(const skv_frame *frame, unsigned has, const skv_legs *leg, int count,
@@ -199,33 +242,10 @@ static SKV_NOINLINE void skv_gauss_general(const skv_frame *frame, unsigned has,
 
 static void skv_gauss_legs(const skv_frame *frame, const skv_legs *leg, int count, const float irradiance[4]) {
     const unsigned has = frame->has | skv_legs_down(leg);
-    switch (has) {
-#if SKV_SPECIALISE
-#if SKV_BANDS != 4
-    case SKV_HAS_TWO:
-        skv_gauss_two_3(frame, leg, count, irradiance);
-        return;
-#if SKV_TERM_OZONE
-    case SKV_HAS_ALL:
-        skv_gauss_all_3(frame, leg, count, irradiance);
-        return;
-#endif
-#endif
-#if SKV_TERM_OZONE && SKV_BANDS != 3
-    case SKV_HAS_ALL | SKV_HAS_FOUR:
-        skv_gauss_all_4(frame, leg, count, irradiance);
-        return;
-    case SKV_HAS_ALL | SKV_HAS_FOUR | SKV_HAS_DOWN:
-        skv_gauss_all_4_down(frame, leg, count, irradiance);
-        return;
-#endif
-#endif
-    default:
-        if ((has & SKV_HAS_GENERAL) != 0)
-            skv_gauss_general(frame, has, leg, count, irradiance);
-        else
-            skv_gauss_any(frame, has, leg, count, irradiance);
-    }
+    if ((has & SKV_HAS_GENERAL) != 0)
+        skv_gauss_general(frame, has, leg, count, irradiance);
+    else if (!skv_gauss_special(frame, has, leg, count, irradiance))
+        skv_gauss_any(frame, has, leg, count, irradiance);
 }
 
 #endif

@@ -24,17 +24,10 @@ SKV_INLINE float skv_grid_amount(float tau) {
     return t / (1.0f + t);
 }
 
-/// Cosines of the zenith angles of the geometric horizon and of the highest ray that meets air.
-typedef struct skv_grid_span {
-    float horizon, high;
-} skv_grid_span;
-
-SKV_INLINE skv_grid_span skv_grid_range(const skv_frame *frame) {
-    const float h = frame->height_km, top = frame->top_km, r = frame->radius_km + h;
-    const float inv = 1.0f / r;
-    const skv_grid_span s = {-skv_sqrtf(h * (frame->radius_km + r)) * inv,
-                             h > top ? -skv_sqrtf((h - top) * (frame->radius_km + top + r)) * inv : 1.0f};
-    return s;
+/// Cosine of the zenith angle of the geometric horizon.
+SKV_INLINE float skv_grid_horizon(const skv_frame *frame) {
+    const float h = frame->height_km, r = frame->radius_km + h;
+    return -skv_sqrtf(h * (frame->radius_km + r)) / r;
 }
 
 /// Optical depth of the air along whole rays, per band, times log2(e): to the ground, or past the top as the closed
@@ -87,18 +80,18 @@ typedef struct skv_grid_place {
 } skv_grid_place;
 
 SKV_INLINE void skv_grid_find(const skv_frame *frame, int light, const skv_block *block, skv_grid_place *p) {
-    const skv_grid_span span = skv_grid_range(frame);
+    const float horizon = skv_grid_horizon(frame);
     const float *const s = frame->light[light].direction_enu;
     const float flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]), inv_flat = flat > 1e-6f ? 1.0f / flat : 0.0f;
     const float lx = flat > 1e-6f ? s[0] * inv_flat : 1.0f, ly = flat > 1e-6f ? s[1] * inv_flat : 0.0f;
-    const float inv_up = 1.0f / skv_maxf(span.high - span.horizon, 1e-9f), inv_down = 1.0f / (1.0f + span.horizon);
+    const float inv_up = 1.0f / (1.0f - horizon), inv_down = 1.0f / (1.0f + horizon);
     SKV_EACH_LANE(l) {
         const float x = block->view[0].v[l], y = block->view[1].v[l], mu = block->view[2].v[l];
         const float inv = 1.0f / skv_root(skv_maxf(x * x + y * y, 1e-24f));
         const float dx = x * inv - lx, dy = y * inv - ly;
         const float u = skv_minf(0.5f * skv_root(dx * dx + dy * dy), 1.0f) * (float)(SKV_GRID_AZIMUTHS - 1);
         const int down = block->meets_ground.v[l] > 0.0f;
-        const float t = down ? (span.horizon - mu) * inv_down : (mu - span.horizon) * inv_up;
+        const float t = down ? (horizon - mu) * inv_down : (mu - horizon) * inv_up;
         const float v = skv_root(skv_clampf(t, 0.0f, 1.0f)) * (float)((down ? SKV_GRID_DOWN : SKV_GRID_UP) - 1);
         int32_t i = (int32_t)u, j = (int32_t)v;
         i = i > SKV_GRID_AZIMUTHS - 2 ? SKV_GRID_AZIMUTHS - 2 : i;
@@ -137,8 +130,8 @@ void skv_grid_add(const skv_frame *frame, int light, size_t first, const skv_blo
     }
 }
 
-/// n(tau) of whole rays, [n][bands].
-static void skv_grid_amounts_of(const skv_frame *frame, size_t n, const skv_rays *rays, float *amount) {
+/// Divides the light of whole rays, [n][bands], by n(tau).
+static void skv_grid_divide(const skv_frame *frame, size_t n, const skv_rays *rays, float *light) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     const size_t bands = (size_t)SKV_BANDS_OF(has);
     for (size_t first = 0; first < n; first += SKV_LANES) {
@@ -150,8 +143,10 @@ static void skv_grid_amounts_of(const skv_frame *frame, size_t n, const skv_rays
         skv_grid_columns(frame, has, &block, k, &c);
         for (size_t b = 0; b < bands; b++) {
             skv_grid_amounts(frame, has, &c, (int)b, &of);
-            for (int l = 0; l < block.count; l++)
-                amount[(first + (size_t)l) * bands + b] = of.v[l];
+            for (int l = 0; l < block.count; l++) {
+                float *const at = &light[(first + (size_t)l) * bands + b];
+                *at = of.v[l] > 1e-12f ? *at / of.v[l] : 0.0f;
+            }
         }
     }
 }
@@ -164,14 +159,14 @@ size_t skv_grid_size(const skv_frame *frame) {
 
 /// Direction of a point of the grid about a light; the two rows at the horizon lie a trace above and below it.
 static void skv_grid_direction(const skv_frame *frame, int light, int row, int azimuth, float v[3]) {
-    const skv_grid_span span = skv_grid_range(frame);
+    const float horizon = skv_grid_horizon(frame);
     const float *const s = frame->light[light].direction_enu;
     const float flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]);
     const float lx = flat > 1e-6f ? s[0] / flat : 1.0f, ly = flat > 1e-6f ? s[1] / flat : 0.0f;
     const int up = row < SKV_GRID_UP, i = up ? row : row - SKV_GRID_UP;
     const float t = (float)i / (float)((up ? SKV_GRID_UP : SKV_GRID_DOWN) - 1);
-    const float range = up ? span.high - span.horizon : -1.0f - span.horizon;
-    const float mu = span.horizon + range * skv_maxf(t * t, 1e-6f);
+    const float range = up ? 1.0f - horizon : -1.0f - horizon;
+    const float mu = horizon + range * skv_maxf(t * t, 1e-6f);
     const float sin_theta = skv_sqrtf(skv_maxf((1.0f - mu) * (1.0f + mu), 0.0f));
     const float half = (float)azimuth / (float)(SKV_GRID_AZIMUTHS - 1);
     const float c = 1.0f - 2.0f * half * half, d = 2.0f * half * skv_sqrtf((1.0f - half) * (1.0f + half));
@@ -180,19 +175,21 @@ static void skv_grid_direction(const skv_frame *frame, int light, int row, int a
     v[2] = mu;
 }
 
-/// One row of a light's grid.
-static void skv_grid_row(const skv_frame *frame, int light, int row, float *out) {
-    const int bands = skv_bands(frame->model);
-    float v[SKV_GRID_AZIMUTHS][3], amount[SKV_GRID_AZIMUTHS * SKV_BANDS_MAX];
-    for (int i = 0; i < SKV_GRID_AZIMUTHS; i++)
-        skv_grid_direction(frame, light, row, i, v[i]);
+/// Rows worked on at a time: as many as fill blocks of lanes.
+#define SKV_GRID_AT_ONCE 8
+
+/// Some rows of a light's grid, from `row` on.
+static SKV_NOINLINE void skv_grid_rows(const skv_frame *frame, int light, int row, float *out) {
+    const int bands = skv_bands(frame->model), left = SKV_GRID_ROWS - row;
+    const int n = SKV_GRID_AZIMUTHS * (left < SKV_GRID_AT_ONCE ? left : SKV_GRID_AT_ONCE);
+    float v[SKV_GRID_AT_ONCE * SKV_GRID_AZIMUTHS][3];
+    for (int i = 0; i < n; i++)
+        skv_grid_direction(frame, light, row + i / SKV_GRID_AZIMUTHS, i % SKV_GRID_AZIMUTHS, v[i]);
     const skv_rays rays = {v[0], 0, NULL, 0};
     const skv_sky sky = {out, 0, NULL, 0};
-    memset(out, 0, sizeof(float) * (size_t)(SKV_GRID_AZIMUTHS * bands));
-    skv_diffuse_add(frame, light, SKV_GRID_AZIMUTHS, &rays, &sky);
-    skv_grid_amounts_of(frame, SKV_GRID_AZIMUTHS, &rays, amount);
-    for (int i = 0; i < SKV_GRID_AZIMUTHS * bands; i++)
-        out[i] = amount[i] > 1e-12f ? out[i] / amount[i] : 0.0f;
+    memset(out, 0, sizeof(float) * (size_t)(n * bands));
+    skv_diffuse_add(frame, light, (size_t)n, &rays, &sky);
+    skv_grid_divide(frame, (size_t)n, &rays, out);
 }
 
 skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n) {
@@ -207,8 +204,8 @@ skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n) {
     frame->diffuse.grid = NULL;
     const int row_floats = SKV_GRID_AZIMUTHS * skv_bands(frame->model);
     for (int light = 0; light < frame->lights; light++)
-        for (int row = 0; row < SKV_GRID_ROWS; row++)
-            skv_grid_row(frame, light, row, grid + (light * SKV_GRID_ROWS + row) * row_floats);
+        for (int row = 0; row < SKV_GRID_ROWS; row += SKV_GRID_AT_ONCE)
+            skv_grid_rows(frame, light, row, grid + (light * SKV_GRID_ROWS + row) * row_floats);
     frame->diffuse.grid = grid;
     return SKV_OK;
 }

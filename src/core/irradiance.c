@@ -51,16 +51,20 @@ static SKV_NOINLINE void skv_irradiance_read(const skv_frame *frame, int light, 
     const float mu_s = frame->light[light].mu_s;
     const float h = skv_clampf((frame->height_km + frame->diffuse.offset_km) * frame->diffuse.inv_span, 0.0f, 1.0f);
     skv_lanes x, y;
-    skv_cells_values values;
+    skv_cells_places place;
+    skv_cells_square square;
+    float ratio[SKV_CELLS_RATIOS];
     SKV_EACH_LANE(l) {
         x.v[l] = skv_sqrtf(h) * (float)(t->altitudes - 1);
         y.v[l] = skv_cells_column(t, mu_s);
     }
-    (void)skv_cells_values_at(t, bands, &x, &y, &values);
+    square.at = -1;
+    skv_cells_find(t, bands, &x, &y, &place);
+    (void)skv_cells_at(t, bands, &place, 0, &square, cell->mean, ratio);
     for (int b = 0; b < bands; b++)
-        cell->mean[b] = skv_exp2f(values.log2_mean[b].v[0]);
+        cell->mean[b] = skv_exp2f(skv_cells_log2(t, cell->mean[b]));
     for (int i = 0; i < 5 * bands; i++)
-        cell->k[i] = values.ratio[i].v[0];
+        cell->k[i] = ratio[i] * t->ratio_scale[i / bands];
     cell->mu_s = mu_s;
 }
 

@@ -23,20 +23,25 @@ SKV_INLINE void skv_clear(const skv_sky *sky, size_t bands, size_t first, size_t
 #if SKV_RULE_GAUSS_EXP
 /// One part of the rays of a block as legs for a light: what is lit before the planet's shadow, and in `resume` where
 /// it is lit again. A function of its own, so that its stack is free again when the kernel runs; a second part, which
-/// few rays have, does the geometry again.
+/// few rays have, does the geometry again. The grid's light comes first in every sum, while the block is at hand.
 /// @return SKV_LEGS_* bits.
 enum { SKV_LEGS_SPLIT = 1, SKV_LEGS_PART = 2, SKV_LEGS_BAD = 4 };
 
 static SKV_NOINLINE unsigned skv_legs_make(const skv_frame *frame, int light, size_t n, size_t first,
-                                           const skv_rays *rays, int part, skv_legs *restrict leg,
+                                           const skv_rays *rays, const skv_sky *sky, int part, skv_legs *restrict leg,
                                            skv_lanes *restrict resume) {
     const unsigned has = frame->has & SKV_HAS_BUILT;
     skv_block block;
     skv_block_light toward;
     skv_columns k[2];
     skv_lanes dark_from;
+    (void)sky;
     skv_block_load(frame, n, first, rays, &block);
     skv_block_columns(frame, has, &block, k);
+#if SKV_TERM_DIFFUSE
+    for (int i = 0; i < frame->lights && light == 0 && part == 0 && skv_grid_used(frame, rays); i++)
+        skv_grid_add(frame, i, first, &block, k, sky);
+#endif
     skv_block_toward(frame, has, light, &block, &toward);
     skv_legs_fill(frame, has, light, &block, part, &toward, &k[part], leg);
     unsigned what = block.bad ? (unsigned)SKV_LEGS_BAD : 0u;
@@ -141,7 +146,7 @@ static SKV_NOINLINE int skv_rule_gauss(const skv_frame *frame, int light, size_t
         for (int part = 0; (what & SKV_LEGS_PART) != 0; part++) {
             skv_lanes resume;
             skv_legs_outputs(sky, bands, first, count, leg.out);
-            what = skv_legs_make(frame, light, n, first, rays, part, &leg, &resume);
+            what = skv_legs_make(frame, light, n, first, rays, sky, part, &leg, &resume);
             seen |= what;
             const int whole = (what & SKV_LEGS_SPLIT) == 0 && skv_slices(frame, &leg) == 1;
             if (whole && queue.count == 0 && skv_legs_full(&leg, count)) {
@@ -198,7 +203,7 @@ skv_status skv_radiance(const skv_frame *frame, size_t n, const skv_rays *rays, 
 #endif
     }
 #if SKV_TERM_DIFFUSE
-    const int direct = frame->diffuse.table && (!frame->diffuse.grid || rays->length_km);
+    const int direct = frame->diffuse.table && !skv_grid_used(frame, rays);
     for (int light = 0; light < frame->lights && direct; light++)
         skv_diffuse_add(frame, light, n, rays, sky);
 #endif

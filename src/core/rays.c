@@ -61,9 +61,10 @@ SKV_INLINE void skv_block_start(const skv_frame *frame, skv_block *b) {
         const float rm = b->rm.v[l], p = b->p_km.v[l];
         const float steep = (rt - p) * (rt + p), flat = rm * rm - c;
         const float root = skv_root(skv_maxf(skv_fabsf(rm) < p ? flat : steep, 0.0f));
-        const int enters = (rm < 0.0f) & (p < rt) & (root > 0.0f);
+        // The root alone decides: p and rt are floats with steps of half a metre on Earth.
+        const int enters = (rm < 0.0f) & (root > 0.0f);
         const float entry = c / skv_maxf(skv_fabsf(rm) + root, 1e-30f);
-        b->p_km.v[l] = enters ? p : rt;
+        b->p_km.v[l] = skv_minf(p, rt);
         b->h_km.v[l] = top;
         b->rm.v[l] = enters ? -root : 0.0f;
         b->start_km.v[l] = enters ? entry : 0.0f;

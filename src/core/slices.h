@@ -7,14 +7,10 @@
 
 #include "core/legs.h"
 
-/// Optical depths from the observer where a leg in fog is cut, and from which on it is.
-#define SKV_FOG_NEAR 6.0f
-#define SKV_FOG_FROM 12.0f
-
 /// Number of slices of these legs; most are empty for most lanes. 1 where every cut is for legs towards the observer
 /// and none of these is.
 SKV_INLINE int skv_slices(const skv_frame *frame, const skv_legs *leg) {
-    const int cuts = frame->breaks + (frame->fog_per_km > 0.0f);
+    const int cuts = frame->breaks + (frame->fog_km > 0.0f);
     uint32_t outbound = ~0u;
     if (cuts == 0)
         return 1;
@@ -26,12 +22,11 @@ SKV_INLINE int skv_slices(const skv_frame *frame, const skv_legs *leg) {
 /// Far end b of slice i but the last, whose near end is a: what fog hides comes first, then each break's altitude as a
 /// distance from the leg's origin; a, where a cut does not apply to the lane, and never beyond `last`.
 SKV_INLINE void skv_slice_end(const skv_frame *frame, skv_legs *leg, int i, const skv_lanes *last) {
-    const int fog = frame->fog_per_km > 0.0f, at = i - fog;
+    const float fog = frame->fog_km;
+    const int at = i - (fog > 0.0f);
     if (at < 0) {
-        const float near = SKV_FOG_NEAR / frame->fog_per_km, least = SKV_FOG_FROM / frame->fog_per_km;
         SKV_EACH_LANE(l) {
-            const int cut = (leg->sigma.v[l] > 0.0f) & (leg->end.v[l] > least);
-            const float s = cut ? leg->end.v[l] - near : 0.0f;
+            const float s = leg->sigma.v[l] > 0.0f ? leg->end.v[l] - fog : 0.0f;
             leg->b.v[l] = skv_minf(skv_maxf(s, leg->a.v[l]), last->v[l]);
         }
         return;

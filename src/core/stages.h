@@ -11,7 +11,13 @@ void skv_diffuse_add(const skv_frame *frame, int light, size_t n, const skv_rays
 void skv_grid_add(const skv_frame *frame, int light, size_t first, const skv_block *block, const skv_columns k[2],
                   const skv_sky *sky);
 
-/// ends.c: what stands at the end of the rays; the grid's light on the way. @return whether any ray was refused.
+/// Whether rays take their diffuse light from the grid.
+SKV_INLINE int skv_grid_used(const skv_frame *frame, const skv_rays *rays) {
+    return SKV_TERM_DIFFUSE && frame->diffuse.grid && !rays->length_km;
+}
+
+/// ends.c: what stands at the end of the rays; for the midpoint rules the grid's light on the way. @return whether any
+/// ray was refused.
 int skv_ends(const skv_frame *frame, size_t n, const skv_rays *rays, const skv_sky *sky);
 
 #endif
