@@ -40,6 +40,12 @@ static inline float skv_cells_mu_s(const skv_table *t, int column) {
     return skv_clampf(skv_copysignf(u, x) - SKV_CELLS_CENTRE, -1.0f, 0.998f);
 }
 
+/// Row coordinate of an altitude, given over the span and within it.
+SKV_INLINE float skv_cells_row(const skv_table *t, float over_span) {
+    return skv_root(over_span) * (float)(t->altitudes - 1);
+}
+
+/// Altitude of a row: the inverse.
 static inline float skv_cells_altitude(const skv_table *t, int row) {
     const float x = (float)row / (float)(t->altitudes - 1);
     return t->ground_km + t->span_km * x * x;

@@ -132,7 +132,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
     const int n = frame->diffuse.samples, bands = SKV_BANDS_OF(has);
     const float *node = skv_gauss_node + skv_gauss_offset(n), *weight = skv_gauss_weight + skv_gauss_offset(n);
     const skv_table *const t = frame->diffuse.table;
-    const float rows = (float)(t->altitudes - 1), inv_span = frame->diffuse.inv_span, offset = frame->diffuse.offset_km;
+    const float inv_span = frame->diffuse.inv_span, offset = frame->diffuse.offset_km;
     (void)bands;
     skv_points p;
     skv_lanes e0, rm, rms, l_km, k, whole;
@@ -158,10 +158,9 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
             q.mu_s.v[l] = ms;
             q.mu.v[l] = dir * m;
             q.q.v[l] = dir * (leg->nu.v[l] - m * ms);
-            q.x.v[l] = skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f);
+            q.x.v[l] = skv_cells_row(t, skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f));
             q.y.v[l] = skv_cells_column(t, ms);
         }
-        SKV_EACH_LANE(l) q.x.v[l] = skv_sqrtf(q.x.v[l]) * rows;
         skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);
         SKV_EACH_SPECIES(s)
         if (SKV_PRESENT(has, s))

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/gauss_legendre.h"
+#include "core/geometry.h"
 #include "core/lanes.h"
 
 skv_status skv_quality_tier(skv_quality *quality, skv_tier tier) {
@@ -33,18 +34,6 @@ static skv_status skv_check_quality(const skv_quality *q) {
     if ((q->terms & SKV_WITH_GROUND) != 0 && !SKV_TERM_GROUND)
         return SKV_ERR_UNSUPPORTED;
     return SKV_OK;
-}
-
-/// Unit vector of any finite non-zero one.
-static int skv_unit(const float v[3], float out[3]) {
-    const float m = skv_maxf(skv_maxf(skv_fabsf(v[0]), skv_fabsf(v[1])), skv_fabsf(v[2]));
-    if (!skv_isfinite(v[0]) || !skv_isfinite(v[1]) || !skv_isfinite(v[2]) || !(m >= 1.17549435e-38f))
-        return 0;
-    const float x = v[0] / m, y = v[1] / m, z = v[2] / m, norm = 1.0f / skv_sqrtf(x * x + y * y + z * z);
-    out[0] = x * norm;
-    out[1] = y * norm;
-    out[2] = z * norm;
-    return 1;
 }
 
 static skv_status skv_frame_lights(skv_frame *f, const skv_light *lights, int32_t n) {

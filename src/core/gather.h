@@ -1,4 +1,4 @@
-/// Gathering the radiance that arrives at a cell, and the nine numbers that stand for it.
+/// Gathering the radiance that arrives at a cell, and the numbers of degrees 0 to 2 that stand for it.
 #ifndef SKV_CORE_GATHER_H
 #define SKV_CORE_GATHER_H
 
@@ -47,7 +47,7 @@ static inline void skv_gather_factors(const skv_gather_ray *ray, float factor[SK
     factor[SKV_GATHER_DOWN] = skv_maxf(mu, 0.0f);
 }
 
-/// Six numbers: mean radiance and the coefficients of degrees 1 and 2 (diffuse.h).
+/// Six numbers: mean radiance and the coefficients of degrees 1 and 2 (diffuse.c).
 static inline void skv_gather_low(const float m[SKV_GATHER_MOMENTS], float mu_s, float out[]) {
     const float per_sr = 0.0795774715f;
     // Where the light stands in the zenith the terms over sines are lost in noise: they count for nothing there.

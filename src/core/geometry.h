@@ -21,4 +21,16 @@ SKV_INLINE float skv_to_top(float radius, float top, float h, float rm) {
     return rm > 0.0f ? c / (rm + q) : q - rm;
 }
 
+/// Unit vector of any finite one that is neither 0 nor subnormal. @return whether it is such.
+static inline int skv_unit(const float v[3], float out[3]) {
+    const float m = skv_maxf(skv_maxf(skv_fabsf(v[0]), skv_fabsf(v[1])), skv_fabsf(v[2]));
+    if (!skv_isfinite(v[0]) || !skv_isfinite(v[1]) || !skv_isfinite(v[2]) || !(m >= 1.17549435e-38f))
+        return 0;
+    const float x = v[0] / m, y = v[1] / m, z = v[2] / m, norm = 1.0f / skv_sqrtf(x * x + y * y + z * z);
+    out[0] = x * norm;
+    out[1] = y * norm;
+    out[2] = z * norm;
+    return 1;
+}
+
 #endif

@@ -6,18 +6,7 @@
 
 #include "core/cells.h"
 #include "core/gather.h"
-
-/// Unit normal; 0 where it has none.
-static int skv_irradiance_normal(const float *v, float n[3]) {
-    const float m = skv_maxf(skv_maxf(skv_fabsf(v[0]), skv_fabsf(v[1])), skv_fabsf(v[2]));
-    if (!skv_isfinite(v[0]) || !skv_isfinite(v[1]) || !skv_isfinite(v[2]) || !(m >= 1.17549435e-38f))
-        return 0;
-    const float x = v[0] / m, y = v[1] / m, z = v[2] / m, inv = 1.0f / skv_sqrtf(x * x + y * y + z * z);
-    n[0] = x * inv;
-    n[1] = y * inv;
-    n[2] = z * inv;
-    return 1;
-}
+#include "core/geometry.h"
 
 static float skv_irradiance_dot(const float a[3], const float b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -55,7 +44,7 @@ static SKV_NOINLINE void skv_irradiance_read(const skv_frame *frame, int light, 
     skv_cells_square square;
     float ratio[SKV_CELLS_RATIOS];
     SKV_EACH_LANE(l) {
-        x.v[l] = skv_sqrtf(h) * (float)(t->altitudes - 1);
+        x.v[l] = skv_cells_row(t, h);
         y.v[l] = skv_cells_column(t, mu_s);
     }
     square.at = -1;
@@ -79,8 +68,7 @@ static void skv_irradiance_from_cell(const skv_frame *frame, int light, const sk
     for (int b = 0; b < bands; b++) {
         const float one = k[b] * mu + k[bands + b] * q;
         const float two = k[2 * bands + b] * p2 + k[3 * bands + b] * mu * q + k[4 * bands + b] * xy;
-        const float zero = 3.14159265f;
-        const float sum = zero + 2.09439510f * one + 0.785398163f * two;
+        const float sum = SKV_PI + 2.09439510f * one + 0.785398163f * two;
         out[b] += frame->light[light].irradiance[b] * cell->mean[b] * skv_maxf(sum, 0.0f);
     }
 }
@@ -160,7 +148,7 @@ skv_status skv_irradiance(const skv_frame *frame, uint32_t parts, size_t n, cons
     for (size_t j = 0; j < n; j++) {
         float normal[3], sum[SKV_BANDS_MAX] = {0.0f};
         float *const out = (float *)(void *)((char *)irradiance + j * to);
-        if (!skv_irradiance_normal((const float *)(const void *)((const char *)normal_enu + j * from), normal)) {
+        if (!skv_unit((const float *)(const void *)((const char *)normal_enu + j * from), normal)) {
             bad = 1;
         } else {
             for (int i = 0; i < frame->lights && (parts & SKV_IRRADIANCE_DIRECT) != 0; i++) {

@@ -14,6 +14,7 @@ skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
     static const skv_table_spec kinds[SKV_TABLE_KINDS] = {
         {10, 3, 21, 0, {6, 4}, {8, 6}, {8, 7}, 0.0f, SKV_TABLE_PACKED},
         {8, 2, 16, 3, {6, 4}, {6, 4}, {6, 5}, 0.0f, SKV_TABLE_PACKED},
+        {16, 5, 28, 0, {6, 4}, {8, 8}, {12, 10}, 0.0f, SKV_TABLE_PACKED},
     };
     if (!spec)
         return SKV_ERR_NULL;
@@ -92,7 +93,7 @@ static void skv_table_axes(skv_table *t, const skv_model *m) {
 }
 
 /// Bytes that a kind may take in four bands.
-static const size_t skv_table_most[SKV_TABLE_KINDS] = {8192, 4800};
+static const size_t skv_table_most[SKV_TABLE_KINDS] = {8192, 4800, 16384};
 
 skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_table_kind kind) {
     if (!spec || !model)
@@ -111,8 +112,8 @@ skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_
     while (s.detailed < s.altitudes && skv_cells_altitude(&t, s.detailed) - t.ground_km < high)
         s.detailed++;
     if (s.detailed > s.altitudes - 2 && s.altitudes > 8) {
-        s.altitudes = 8;
-        s.detailed = 8;
+        s.altitudes = s.altitudes * 4 / 5;
+        s.detailed = s.altitudes;
     }
     s.samples[1] = skv_diffuse_nodes(model);
     if (skv_scattering_depth(model) >= 0.5f)

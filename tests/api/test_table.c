@@ -17,20 +17,22 @@ static skv_table *const table_other = (skv_table *)(void *)other_words;
 static void sizes(void **state) {
     (void)state;
     for (int bands = 3; bands <= 4; bands++) {
+        static const char *const names[SKV_TABLE_KINDS] = {"accurate", "small", "large"};
         size_t bytes[SKV_TABLE_KINDS];
         for (int k = 0; k < SKV_TABLE_KINDS; k++) {
             skv_table_spec s;
             check_status("skv_table_spec_kind", skv_table_spec_kind(&s, (skv_table_kind)k), SKV_OK);
             bytes[k] = skv_table_size(&s, bands);
-            print_message("figure: %s table, %d bands: %u bytes, work space %u bytes, builder %u bytes\n",
-                          k == SKV_TABLE_ACCURATE ? "accurate" : "small", bands, (unsigned)bytes[k],
-                          (unsigned)skv_table_work_size(&s, bands), (unsigned)sizeof(skv_table_builder));
+            print_message("figure: %s table, %d bands: %u bytes, work space %u bytes, builder %u bytes\n", names[k],
+                          bands, (unsigned)bytes[k], (unsigned)skv_table_work_size(&s, bands),
+                          (unsigned)sizeof(skv_table_builder));
             s.format = SKV_TABLE_FLOAT;
             assert_true(skv_table_size(&s, bands) > 2 * bytes[k]); // floats against 16 and 8 bits
             assert_true(skv_table_work_size(&s, bands) > skv_table_size(&s, bands));
         }
         assert_true(bytes[SKV_TABLE_SMALL] < bytes[SKV_TABLE_ACCURATE]);
         check_at_most("accurate table, bytes (issue: 8 KiB)", (double)bytes[SKV_TABLE_ACCURATE], 8192);
+        check_at_most("large table, bytes", (double)bytes[SKV_TABLE_LARGE], 16384);
     }
     const skv_table_spec s = spec_least();
     assert_int_equal(skv_table_size(NULL, 4), 0);

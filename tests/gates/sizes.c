@@ -17,7 +17,7 @@ int main(void) {
     SIZE(skv_sun);
     SIZE(skv_moon);
     for (int kind = 0; kind < SKV_TABLE_KINDS; kind++) {
-        static const char *const names[SKV_TABLE_KINDS] = {"accurate", "small"};
+        static const char *const names[SKV_TABLE_KINDS] = {"accurate", "small", "large"};
         skv_table_spec spec;
         if (skv_table_spec_kind(&spec, (skv_table_kind)kind) != SKV_OK)
             break;

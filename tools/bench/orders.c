@@ -44,6 +44,7 @@ static const scheme schemes[] = {
     {"accurate", SKV_TABLE_ACCURATE, SKV_TABLE_PACKED, 0, SKV_TIER_STANDARD},
     {"accurate, grid", SKV_TABLE_ACCURATE, SKV_TABLE_PACKED, 1, SKV_TIER_STANDARD},
     {"accurate, high", SKV_TABLE_ACCURATE, SKV_TABLE_PACKED, 0, SKV_TIER_HIGH},
+    {"large", SKV_TABLE_LARGE, SKV_TABLE_PACKED, 0, SKV_TIER_STANDARD},
     {"accurate, floats", SKV_TABLE_ACCURATE, SKV_TABLE_FLOAT, 0, SKV_TIER_STANDARD},
 };
 

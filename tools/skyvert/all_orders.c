@@ -6,7 +6,7 @@
 #include "command.h"
 
 const char *const order_names[] = {"single", "all", NULL};
-const char *const table_names[] = {"accurate", "small", NULL};
+const char *const table_names[] = {"accurate", "small", "large", NULL};
 
 double processor_s(void) {
     struct timespec now;
@@ -56,6 +56,12 @@ int all_orders_build(all_orders *out, const char *command, const skv_model *mode
     if (skv_table_spec_for(&spec, model, kind) != SKV_OK)
         return refuse(command, SKV_ERR_UNSUPPORTED);
     spec.ground_km = ground_km;
+    spec.format = out->floats ? SKV_TABLE_FLOAT : SKV_TABLE_PACKED;
+    if (out->sizes[2] > 0) {
+        spec.altitudes = out->sizes[0];
+        spec.detailed = out->sizes[1];
+        spec.suns = out->sizes[2];
+    }
     const size_t size = skv_table_size(&spec, model->bands);
     out->table = size > 0 ? malloc(size) : NULL;
     const double start_s = processor_s();

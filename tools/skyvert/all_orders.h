@@ -7,10 +7,12 @@
 #include "skyvert/skyvert.h"
 
 extern const char *const order_names[]; ///< for option_choice(): single, all
-extern const char *const table_names[]; ///< accurate, small: as skv_table_kind
+extern const char *const table_names[]; ///< accurate, small, large: as skv_table_kind
 
-/// A table that was built. Zero it before the first use.
+/// A table that was built. Zero it before the first use; then sizes and floats may be set.
 typedef struct all_orders {
+    int sizes[3];     ///< altitudes, detailed ones and suns of the table, ranges in skyvert/table.h; 0: the kind's
+    bool floats;      ///< whether its numbers are floats and not packed
     skv_table *table; ///< NULL: none yet
     float ground_km;
     double build_s; ///< processor time of all builds so far

@@ -62,7 +62,7 @@ static const char help[] =
     "                         phase functions, which the sampler multiplies: exact about the sun (sky-view: baked;\n"
     "                         scattering-3d: deferred)\n"
     "  --orders single|all    of scattering (default all)\n"
-    "  --table accurate|small the table of multiple scattering (default accurate)\n"
+    "  --table accurate|small|large  the table of multiple scattering (default accurate)\n"
     "  --name NAME            what C names begin with (default skyvert_baked)\n"
     "Sizes (defaults in the order sky-view, transmittance, scattering-3d, irradiance):\n"
     "  --rows N               even, 4 to 4096 (96, 128, 64, -)\n"

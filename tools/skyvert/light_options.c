@@ -13,7 +13,7 @@ static const char *const choice_names[] = {"off", "on", "auto", NULL};
 const char light_options_help[] =
     "Light:\n"
     "  --orders all|single    orders of scattering: all (default), by a table that is built first, or one\n"
-    "  --table accurate|small which table (default accurate)\n"
+    "  --table accurate|small|large  which table (default accurate)\n"
     "  --grid auto|on|off     light scattered more than once by a grid per picture, or ray by ray; auto\n"
     "                         (default): by a grid from 2000 rays on, but not from above the air\n"
     "  --discs on|off         the discs of sun and moon (default on; of a dome: off)\n"
