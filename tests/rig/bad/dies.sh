@@ -1,0 +1,2 @@
+poweroff -f
+sleep 10

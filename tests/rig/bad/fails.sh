@@ -1,0 +1,1 @@
+fail "as it has to"

@@ -1,0 +1,3 @@
+# seconds: 3
+sleep 100 &
+sleep 50
