@@ -175,8 +175,8 @@ static void skv_grid_direction(const skv_frame *frame, int light, int row, int a
     v[2] = mu;
 }
 
-/// Rows worked on at a time: as many as fill blocks of lanes.
-#define SKV_GRID_AT_ONCE 8
+/// Rows worked on at a time: they fill blocks of lanes all but for a few.
+#define SKV_GRID_AT_ONCE 4
 
 /// Some rows of a light's grid, from `row` on.
 static SKV_NOINLINE void skv_grid_rows(const skv_frame *frame, int light, int row, float *out) {

@@ -14,7 +14,7 @@ skv_status skv_table_spec_kind(skv_table_spec *spec, skv_table_kind kind) {
     static const skv_table_spec kinds[SKV_TABLE_KINDS] = {
         {10, 3, 21, 0, {6, 4}, {8, 6}, {8, 7}, 0.0f, SKV_TABLE_PACKED},
         {8, 2, 16, 3, {6, 4}, {6, 4}, {6, 5}, 0.0f, SKV_TABLE_PACKED},
-        {16, 5, 28, 0, {6, 4}, {8, 8}, {12, 10}, 0.0f, SKV_TABLE_PACKED},
+        {16, 5, 27, 0, {6, 4}, {8, 8}, {12, 10}, 0.0f, SKV_TABLE_PACKED},
     };
     if (!spec)
         return SKV_ERR_NULL;

@@ -7,6 +7,6 @@ DEPS_TEST += libcmocka-dev liberfa-dev
 
 $(foreach t,$(filter test_sun% test_moon%,$(API_TESTS)),$(eval API_LIBS_$(t) ?= -lerfa))
 
-$(B)/tests/api/%: tests/api/%.c tests/check.h $(wildcard tests/api/*.h) $(HEADERS) $(LIB)
+$(B)/tests/api/%: tests/api/%.c tests/airs.h tests/check.h $(wildcard tests/api/*.h) $(HEADERS) $(LIB)
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -Itests $< $(LIB) -lcmocka $(API_LIBS_$*) -lm -o $@

@@ -1,72 +1,40 @@
-/// Two atmospheres, directions and frames for the tests of the core. Nothing here comes from the library's presets.
+/// Atmospheres, directions and frames for the tests of the core.
 #ifndef TESTS_API_CORE_AIR_H
 #define TESTS_API_CORE_AIR_H
 
 #include <math.h>
 #include <string.h>
 
+#include "airs.h"
 #include "check.h"
 #include "skyvert/radiance.h"
-
-#define CORE_DEGREE 0.017453292519943295
 
 static inline void check_status(const char *what, skv_status got, skv_status want) {
     if (got != want)
         fail_msg("%s: got status %d, want %d", what, (int)got, (int)want);
 }
 
-static inline void set4(float to[4], double a, double b, double c, double d) {
-    to[0] = (float)a;
-    to[1] = (float)b;
-    to[2] = (float)c;
-    to[3] = (float)d;
-}
-
 /// The figures of tools/bench/br17o.ini: clear, with ozone.
 static inline skv_atmosphere air_br17o(void) {
-    skv_atmosphere a;
-    memset(&a, 0, sizeof a);
-    a.radius_km = 6360;
-    a.top_km = 60;
-    a.bands = 4;
-    set4(a.wavelength_nm, 440, 520, 600, 680);
-    set4(a.solar_irradiance, 1, 1, 1, 1);
-    set4(a.albedo, 0.1, 0.1, 0.1, 0.1);
-    set4(a.absorption_colour, 1, 1, 1, 1);
-    set4(a.rayleigh_scattering_per_km, 0.033100006, 0.0169677948, 0.00957268519, 0.00580233938);
-    a.rayleigh.kind = SKV_PROFILE_EXPONENTIAL;
-    a.rayleigh.scale_height_km = 8;
-    set4(a.aerosol_scattering_per_km, 0.003996, 0.003996, 0.003996, 0.003996);
-    set4(a.aerosol_extinction_per_km, 0.00444, 0.00444, 0.00444, 0.00444);
-    a.aerosol.kind = SKV_PROFILE_EXPONENTIAL;
-    a.aerosol.scale_height_km = 1.2f;
-    a.aerosol_phase = SKV_PHASE_CS;
-    a.aerosol_g = 0.8f;
-    a.turbidity = 1;
-    set4(a.ozone_absorption_per_km, 8.501668e-05, 0.0011494986, 0.0026972106, 0.0006497166);
-    a.ozone.kind = SKV_PROFILE_TENT;
-    a.ozone.peak_km = 25;
-    a.ozone.half_width_km = 15;
+    skv_atmosphere a = air_clear(4);
+    fill(a.solar_irradiance, 1, 1, 1, 1);
+    fill(a.albedo, 0.1, 0.1, 0.1, 0.1);
     return a;
 }
 
 /// The figures of tools/bench/br16.ini: strong aerosol, no ozone.
 static inline skv_atmosphere air_br16(void) {
-    skv_atmosphere a = air_br17o();
-    set4(a.albedo, 0.03, 0.055, 0.061, 0.035);
-    set4(a.rayleigh_scattering_per_km, 0.02900713, 0.01461732, 0.008156124, 0.004908462);
-    set4(a.aerosol_scattering_per_km, 0.05142882, 0.04499519, 0.04012802, 0.03630459);
-    set4(a.aerosol_extinction_per_km, 0.06428603, 0.05624398, 0.05016003, 0.04538074);
-    a.aerosol_g = 0.7f;
-    a.ozone.kind = SKV_PROFILE_NONE;
+    skv_atmosphere a = air_hazy(4);
+    fill(a.solar_irradiance, 1, 1, 1, 1);
+    fill(a.albedo, 0.03, 0.055, 0.061, 0.035);
     return a;
 }
 
 /// A layer of smoke beside that: its own scale height, phase function and colours.
 static inline skv_atmosphere air_smoky(void) {
     skv_atmosphere a = air_br17o();
-    set4(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
-    set4(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
+    fill(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
+    fill(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
     a.dust.kind = SKV_PROFILE_EXPONENTIAL;
     a.dust.scale_height_km = 2.5f;
     a.dust_phase = SKV_PHASE_HG;
@@ -76,10 +44,10 @@ static inline skv_atmosphere air_smoky(void) {
 
 /// Zenith angle, and azimuth clockwise from north; exactly level at 90 degrees, exactly down at 180.
 static inline void toward(float to[3], double zenith_deg, double azimuth_deg) {
-    const double level = zenith_deg == 180 ? 0 : sin(zenith_deg * CORE_DEGREE);
-    to[0] = (float)(level * sin(azimuth_deg * CORE_DEGREE));
-    to[1] = (float)(level * cos(azimuth_deg * CORE_DEGREE));
-    to[2] = zenith_deg == 90 ? 0.0f : (float)cos(zenith_deg * CORE_DEGREE);
+    const double level = zenith_deg == 180 ? 0 : sin(zenith_deg * DEGREE);
+    to[0] = (float)(level * sin(azimuth_deg * DEGREE));
+    to[1] = (float)(level * cos(azimuth_deg * DEGREE));
+    to[2] = zenith_deg == 90 ? 0.0f : (float)cos(zenith_deg * DEGREE);
 }
 
 static inline skv_quality quality_of(skv_rule rule, skv_depth depth, int samples, int depth_samples, uint32_t terms) {

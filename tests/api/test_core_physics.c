@@ -41,8 +41,8 @@ static void two_lights_add(void **state) {
             float view[3];
             toward(light[0].direction_enu, rays_of[i].sun_deg, SUN_AZIMUTH);
             toward(light[1].direction_enu, 50, 290);
-            set4(light[0].irradiance, 1, 2, 3, 4);
-            set4(light[1].irradiance, 2, 1, 0.5, 0);
+            fill(light[0].irradiance, 1, 2, 3, 4);
+            fill(light[1].irradiance, 2, 1, 0.5, 0);
             toward(view, rays_of[i].view_deg, rays_of[i].azimuth_deg);
             for (int n = 0; n < 3; n++) {
                 skv_frame frame;
@@ -92,7 +92,7 @@ static void terms_off_are_species_absent(void **state) {
         if (term < 4)
             profile[term]->kind = SKV_PROFILE_NONE;
         else
-            set4(a.albedo, 0, 0, 0, 0);
+            fill(a.albedo, 0, 0, 0, 0);
         build(&other, &a);
         for (int k = 0; k < COUNT(qualities); k++)
             for (int i = 0; i < COUNT(rays_of); i++) {
@@ -176,10 +176,10 @@ static void halves_of_an_aerosol_add(void **state) {
 static void a_gas_that_absorbs(void **state) {
     (void)state;
     skv_atmosphere a = air_br17o();
-    set4(a.rayleigh_absorption_per_km, 0.001, 0.01, 0.03, 0);
+    fill(a.rayleigh_absorption_per_km, 0.001, 0.01, 0.03, 0);
     build(&third, &a);
     memcpy(a.dust_extinction_per_km, a.rayleigh_absorption_per_km, sizeof a.dust_extinction_per_km);
-    set4(a.rayleigh_absorption_per_km, 0, 0, 0, 0);
+    fill(a.rayleigh_absorption_per_km, 0, 0, 0, 0);
     a.dust = a.rayleigh;
     build(&other, &a);
     compare_models("an absorbing gas", &third, &other, 5e-5);
@@ -294,7 +294,7 @@ static void a_ray_cut_in_two(void **state) {
 
 /// Distance to the ground in double.
 static double ground_distance(double height_km, double view_deg) {
-    const double r = 6360 + height_km, mu = cos(view_deg * CORE_DEGREE);
+    const double r = 6360 + height_km, mu = cos(view_deg * DEGREE);
     return (r * r - 6360.0 * 6360.0) / (-r * mu + sqrt(r * r * mu * mu - (r * r - 6360.0 * 6360.0)));
 }
 
@@ -331,7 +331,7 @@ static void the_ground_is_lambert(void **state) {
     static const double suns[] = {0, 45, 70, 85};
     const float down[3] = {0, 0, -1};
     skv_atmosphere a = air_br17o();
-    set4(a.albedo, 0.05, 0.2, 0.6, 1);
+    fill(a.albedo, 0.05, 0.2, 0.6, 1);
     build(&other, &a);
     for (int i = 0; i < 4; i++) {
         skv_frame frame;
@@ -442,8 +442,8 @@ static void ground_at_another_altitude(void **state) {
 static void irradiance_and_absorption_colour_scale(void **state) {
     (void)state;
     skv_atmosphere a = air_br17o();
-    set4(a.solar_irradiance, 2, 0.25, 0, 1.7);
-    set4(a.absorption_colour, 0.5, 1, 0.25, 0.3);
+    fill(a.solar_irradiance, 2, 0.25, 0, 1.7);
+    fill(a.absorption_colour, 0.5, 1, 0.25, 0.3);
     const double factor[4] = {1, 0.25, 0, 0.51};
     build(&other, &a);
     for (int k = 0; k < COUNT(qualities); k++)
@@ -501,7 +501,7 @@ static void a_turned_scene_is_the_same(void **state) {
             float view[3];
             toward(sun.direction_enu, rays_of[i].sun_deg, mirror * SUN_AZIMUTH + by);
             toward(view, rays_of[i].view_deg, mirror * rays_of[i].azimuth_deg + by);
-            set4(sun.irradiance, 1, 1, 1, 1);
+            fill(sun.irradiance, 1, 1, 1, 1);
             check_status("skv_frame_begin",
                          skv_frame_begin(&frame, &clear, &qualities[0], (float)rays_of[i].observer_km, 0, &sun, 1),
                          SKV_OK);

@@ -83,7 +83,7 @@ static void by_quadrature(double horizon, double top, const float normal[NORMALS
         const double mu = horizon + range * t * t, s = sqrt(1 - mu * mu);
         const double weight = 2 * fabs(range) * t / POLAR * 2 * 3.14159265358979 / AZIMUTHS;
         for (int k = 0; k < AZIMUTHS; k++) {
-            const double phi = (SUN_AZIMUTH + 360 * (k + 0.5) / AZIMUTHS) * CORE_DEGREE;
+            const double phi = (SUN_AZIMUTH + 360 * (k + 0.5) / AZIMUTHS) * DEGREE;
             view[k][0] = (float)(s * sin(phi));
             view[k][1] = (float)(s * cos(phi));
             view[k][2] = (float)mu;
@@ -181,7 +181,7 @@ static void direct_irradiance_is_the_beam(void **state) {
     for (int i = 0; i < CASES(400); i++) {
         const skv_quality q = tier_of(SKV_TIER_STANDARD, SKV_WITH_ALL);
         const double h = i % 7 ? random_in(0, 80) : 3000, sun = random_in(0, 110);
-        const double dip = 90 + acos(6360 / (6360 + h)) / CORE_DEGREE;
+        const double dip = 90 + acos(6360 / (6360 + h)) / DEGREE;
         float to_sun[3], got[2][4];
         double n[3];
         begin(&frame, &table_model, &q, h, 0, sun);
@@ -213,17 +213,17 @@ static void energy_is_kept(void **state) {
         const skv_table_spec s = spec_of(SKV_TABLE_ACCURATE);
         air.radius_km = 1e5f;
         air.ozone.kind = SKV_PROFILE_NONE;
-        set4(air.albedo, 1, 1, 1, 1);
-        set4(air.aerosol_scattering_per_km, 0.1, 0.05, 0.02, 0.005);
+        fill(air.albedo, 1, 1, 1, 1);
+        fill(air.aerosol_scattering_per_km, 0.1, 0.05, 0.02, 0.005);
         memcpy(air.aerosol_extinction_per_km, air.aerosol_scattering_per_km, sizeof air.aerosol_scattering_per_km);
         if (k == 0)
             air.aerosol.kind = SKV_PROFILE_NONE;
         if (k == 2)
-            set4(air.rayleigh_scattering_per_km, 0.2, 0.1, 0.05, 0.02);
+            fill(air.rayleigh_scattering_per_km, 0.2, 0.1, 0.05, 0.02);
         if (k == 3) { // dust alone
             air.dust = air.aerosol;
             air.dust.scale_height_km = 11;
-            set4(air.dust_scattering_per_km, 0.04, 0.02, 0.01, 0.002);
+            fill(air.dust_scattering_per_km, 0.04, 0.02, 0.01, 0.002);
             memcpy(air.dust_extinction_per_km, air.dust_scattering_per_km, sizeof air.dust_scattering_per_km);
             air.dust_g = 0.69f;
             air.rayleigh.kind = air.aerosol.kind = SKV_PROFILE_NONE;
@@ -234,7 +234,7 @@ static void energy_is_kept(void **state) {
             static const float normal[NORMALS][3] = {{0, 0, 1}, {0, 0, -1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
             double top[NORMALS][4];
             float ground[2][4];
-            const double in = cos(sun[i] * CORE_DEGREE), horizon = -sqrt(60 * (2e5 + 60)) / (1e5 + 60);
+            const double in = cos(sun[i] * DEGREE), horizon = -sqrt(60 * (2e5 + 60)) / (1e5 + 60);
             table_frame(&frame, 0, 0, sun[i]);
             check_status("skv_irradiance", skv_irradiance(&frame, SKV_IRRADIANCE_ALL, 2, normal[0], 0, ground[0], 0),
                          SKV_OK);

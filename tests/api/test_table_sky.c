@@ -14,10 +14,10 @@ static void radiance_of(const skv_frame *frame, float out[VIEWS][4]) {
 
 /// Directions over the sphere, every third one near the geometric horizon.
 static void fill_views(double height_km, double radius_km) {
-    const double dip = acos(radius_km / (radius_km + height_km)) / CORE_DEGREE;
+    const double dip = acos(radius_km / (radius_km + height_km)) / DEGREE;
     for (int i = 0; i < VIEWS; i++) {
         const double zenith =
-            i % 3 ? acos(random_in(-1, 1)) / CORE_DEGREE : fmin(180, 90 + dip + random_in(-1, 1) * random_in(0, 8));
+            i % 3 ? acos(random_in(-1, 1)) / DEGREE : fmin(180, 90 + dip + random_in(-1, 1) * random_in(0, 8));
         toward(view[i], zenith, random_in(0, 360));
     }
 }
@@ -72,7 +72,7 @@ static void all_orders_are_at_least_one(void **state) {
 
 static void light_at(skv_light *light, double zenith_deg, double azimuth_deg, double scale) {
     toward(light->direction_enu, zenith_deg, azimuth_deg);
-    set4(light->irradiance, scale * 1.9, scale * 1.85, scale * 1.7, scale * 1.5);
+    fill(light->irradiance, scale * 1.9, scale * 1.85, scale * 1.7, scale * 1.5);
 }
 
 static void lights_frame(skv_frame *frame, double height_km, const skv_light *light, int n) {
@@ -231,7 +231,7 @@ static void no_seam_at_the_horizon(void **state) {
     table_make(&air, &s);
     for (int i = 0; i < 24; i++) {
         skv_frame frame;
-        const double height = h[i % 6], dip = acos(6360 / (6360 + height)) / CORE_DEGREE;
+        const double height = h[i % 6], dip = acos(6360 / (6360 + height)) / DEGREE;
         table_frame(&frame, height, 0, sun[i / 6]);
         for (int v = 0; v < VIEWS; v++) // pairs, half a minute of arc above and below
             toward(view[v], 90 + dip + (v % 2 ? 0.008 : -0.008), SUN_AZIMUTH + 18.3 * (v / 2 % 20));

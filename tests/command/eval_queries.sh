@@ -127,7 +127,7 @@ for options in '--tier fast' '--tier high' '--rule uniform' '--rule keller --sam
     does "$options" in.csv lit $options
     same "$options: two lines" "$(wc -l <stdout)" 2
 done
-refuses 'table' 2 '^skyvert eval: --table huge: allowed is accurate or small' in.csv lit --table huge
+refuses 'table' 2 '^skyvert eval: --table huge: allowed is accurate, small or large' in.csv lit --table huge
 does 'all orders' in.csv "$skyvert" eval --atmosphere air.ini --orders all
 cp stdout all.csv
 does 'all orders are the default' in.csv "$skyvert" eval --atmosphere air.ini

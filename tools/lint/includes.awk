@@ -7,7 +7,7 @@
 # Tests may include anything.
 BEGIN {
     plain = " stddef.h stdint.h stdbool.h float.h limits.h string.h "
-    n = split("config status atmosphere frame table radiance irradiance colour sun moonlight disc stars night water dome display skyvert", stage, " ")
+    n = split("config status atmosphere frame table radiance work irradiance colour sun moonlight disc stars night water dome display skyvert", stage, " ")
     for (i = 1; i <= n; i++) order[stage[i] ".h"] = i
 }
 FNR == 1 {

@@ -35,9 +35,9 @@ void sin_cos_deg(double degrees, double *sine, double *cosine) {
 /// What one run works on.
 typedef struct job {
     const query_list *queries;
-    const skv_model *model;
-    const skv_table *table; ///< NULL: light scattered once
-    const skv_quality *quality;
+    const answers_source *source;
+    float *grid;      ///< room for one, or NULL
+    size_t grid_size; ///< of that room, bytes
     size_t *order;    ///< [rows] places of the queries, those of a frame side by side
     float *direction; ///< [rows][3] in that order
     float *radiance;  ///< [rows][bands] in that order
@@ -72,35 +72,70 @@ static void set_direction(const query *q, float direction[3]) {
     direction[2] = (float)cos_zenith;
 }
 
+/// High up the core refuses a grid: rays are integrated there.
+static skv_status lay_grid(job *j, skv_frame *frame) {
+    const size_t size = skv_grid_size(frame);
+    if (size > j->grid_size) {
+        free(j->grid);
+        j->grid = malloc(size);
+        j->grid_size = j->grid ? size : 0;
+    }
+    const skv_status status = skv_frame_grid(frame, j->grid, j->grid_size);
+    return status == SKV_ERR_RANGE ? SKV_OK : status;
+}
+
+enum { BATCH = 4096 }; // between two looks at the clock
+
+/// A published model has four numbers a ray, whatever the bands.
+static skv_status evaluate_other(const job *j, const query *q, const float sun[3], size_t first, size_t end) {
+    static float radiance[BATCH][4];
+    const size_t bands = (size_t)j->source->model->bands;
+    const baseline_view view = {q->value[QUERY_ALTITUDE], {(double)sun[0], (double)sun[1], (double)sun[2]}};
+    const char *why;
+    if (j->source->other->frame(j->source->other_state, &view, &why) != 0)
+        return SKV_ERR_UNSUPPORTED;
+    j->source->other->radiance(j->source->other_state, end - first, (const float(*)[3])(j->direction + 3 * first),
+                               radiance);
+    for (size_t i = first; i < end; i++)
+        memcpy(j->radiance + bands * i, radiance[i - first], bands * sizeof(float));
+    return SKV_OK;
+}
+
 /// The queries [first, end) of j->order, all with one altitude and sun: azimuth 0, toward the sun, is north.
-static skv_status evaluate_frame(const job *j, size_t first, size_t end) {
+static skv_status evaluate_frame(job *j, size_t first, size_t end) {
+    const answers_source *const by = j->source;
     const query *const q = &j->queries->row[j->order[first]];
     double sin_sun, cos_sun;
     sin_cos_deg(q->value[QUERY_SUN], &sin_sun, &cos_sun);
     const float sun[3] = {0, (float)sin_sun, (float)cos_sun};
     skv_light light;
     skv_frame frame;
-    skv_status status = skv_light_sun(&light, j->model, sun);
+    if (by->other)
+        return evaluate_other(j, q, sun, first, end);
+    skv_status status = skv_light_sun(&light, by->model, sun);
     if (status == SKV_OK)
-        status = skv_frame_begin(&frame, j->model, j->quality, (float)q->value[QUERY_ALTITUDE], 0, &light, 1);
+        status = skv_frame_begin(&frame, by->model, by->quality, (float)q->value[QUERY_ALTITUDE], 0, &light, 1);
     if (status == SKV_OK)
-        status = skv_frame_table(&frame, j->table);
+        status = skv_frame_table(&frame, by->table);
+    if (status == SKV_OK && by->grid)
+        status = lay_grid(j, &frame);
     const skv_rays rays = {.direction_enu = j->direction + 3 * first};
-    const skv_sky sky = {.radiance = j->radiance + (size_t)j->model->bands * first};
+    const skv_sky sky = {.radiance = j->radiance + (size_t)by->model->bands * first};
     return status == SKV_OK ? skv_radiance(&frame, end - first, &rays, &sky) : status;
 }
 
-static int evaluate(const job *j) {
-    const size_t n = j->queries->rows, batch_max = 4096; // a batch between two looks at the clock
+static int evaluate(job *j) {
+    const size_t n = j->queries->rows;
     const query *const row = j->queries->row;
     progress_begin("eval", n);
     for (size_t first = 0, end; first < n; first = end) {
-        for (end = first + 1;
-             end < n && end - first < batch_max && same_frame(&row[j->order[first]], &row[j->order[end]]); end++) {
+        for (end = first + 1; end < n && end - first < BATCH && same_frame(&row[j->order[first]], &row[j->order[end]]);
+             end++) {
         }
         const skv_status status = evaluate_frame(j, first, end);
         if (status != SKV_OK)
-            return fail_job("skyvert eval: the core refuses altitude %g km, sun zenith %g deg (status %d)",
+            return fail_job("skyvert eval: the %s refuses altitude %g km, sun zenith %g deg (status %d)",
+                            j->source->other ? j->source->other->name : "core",
                             row[j->order[first]].value[QUERY_ALTITUDE], row[j->order[first]].value[QUERY_SUN],
                             (int)status);
         progress_update(end);
@@ -112,7 +147,7 @@ static int evaluate(const job *j) {
 static int print(const job *j, const size_t *place, const atmosphere_file *file) {
     for (int c = 0; c < QUERY_COLUMNS; c++)
         printf("%s%s", c ? "," : "", query_names[c]);
-    const int bands = j->model->bands;
+    const int bands = j->source->model->bands;
     for (int b = 0; b < bands; b++)
         printf(",L_%s", file->band_name[b]);
     putchar('\n');
@@ -143,14 +178,11 @@ static int run(job *j, size_t *place, const atmosphere_file *file) {
     return result ? result : print(j, place, file);
 }
 
-int answers_write(const query_list *queries, const skv_model *model, const skv_table *table, const skv_quality *quality,
-                  const atmosphere_file *file) {
+int answers_write(const query_list *queries, const answers_source *source, const atmosphere_file *file) {
     const size_t n = queries->rows + 1; // malloc(0) may be NULL
     size_t *const place = calloc(n, sizeof *place);
     job j = {.queries = queries,
-             .model = model,
-             .table = table,
-             .quality = quality,
+             .source = source,
              .order = calloc(n, sizeof *j.order),
              .direction = calloc(n, 3 * sizeof *j.direction),
              .radiance = calloc(n, 4 * sizeof *j.radiance)};
@@ -158,6 +190,7 @@ int answers_write(const query_list *queries, const skv_model *model, const skv_t
     const int result =
         room ? run(&j, place, file) : fail_job("skyvert eval: out of memory for %zu rows", queries->rows);
     free(place);
+    free(j.grid);
     free(j.order);
     free(j.direction);
     free(j.radiance);

@@ -24,9 +24,12 @@ $(B)/tools/skyvert/flags: FORCE
 .PHONY: FORCE
 FORCE:
 
-$(SKYVERT_OBJ): $(B)/tools/skyvert/%.o: tools/skyvert/%.c $(wildcard tools/skyvert/*.h port/*/*.h) $(HEADERS) $(B)/tools/skyvert/flags Makefile tools/skyvert/build.mk
+$(SKYVERT_OBJ): $(B)/tools/skyvert/%.o: tools/skyvert/%.c $(wildcard tools/skyvert/*.h tools/baselines/*.h port/*/*.h) $(HEADERS) $(B)/tools/skyvert/flags Makefile tools/skyvert/build.mk
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -I. $(PORT_FLAGS) $(SKYVERT_INIH_FLAGS) -c $< -o $@
 
-$(B)/skyvert: $(SKYVERT_OBJ) $(PORT_OBJ) $(LIB)
-	$(SKYVERT_LD) $(SAN) $(SKYVERT_OBJ) $(PORT_OBJ) $(LIB) $(PORT_LIBS) $(SKYVERT_INIH_LIBS) -lm -o $@
+# Libraries of other tools: the trade reads ini files, so it is there when eval is.
+SKYVERT_TOOLS := $(if $(SKYVERT_INIH_LIBS),$(B)/libtrade.a) $(B)/libreference.a $(B)/libbaselines.a
+
+$(B)/skyvert: $(SKYVERT_OBJ) $(PORT_OBJ) $(SKYVERT_TOOLS) $(LIB)
+	$(SKYVERT_LD) $(SAN) -pthread $(SKYVERT_OBJ) $(PORT_OBJ) $(SKYVERT_TOOLS) $(LIB) $(PORT_LIBS) $(SKYVERT_INIH_LIBS) -lm -o $@

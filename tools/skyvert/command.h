@@ -27,6 +27,8 @@ int cmd_render(int argc, char **argv);
 int cmd_track(int argc, char **argv);
 int cmd_dome(int argc, char **argv);
 int cmd_bake(int argc, char **argv);
+int cmd_plan(int argc, char **argv);
+int cmd_trade(int argc, char **argv);
 
 // --- errors.c: one line to stderr, as given (start it with "skyvert NAME: " or "file:line: "), control bytes masked
 // ---
@@ -98,6 +100,8 @@ int output_reserve(output *out, const char *path);
 const char *output_name(const output *out);
 /// Flushes, syncs, renames. @return 0; 1 after an error line, nothing is left then.
 int output_commit(output *out);
+/// Gives up after a line that says why writing failed: removes what was written. @return 1
+int output_fail(output *out, const char *why);
 /// Gives up: removes what was written. Safe after a commit or on a zeroed struct.
 void output_discard(output *out);
 /// Flushes the standard output at the end of a job. @return 0; 1 after an error line (full disk, closed pipe).

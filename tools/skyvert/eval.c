@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "all_orders.h"
 #include "answers.h"
@@ -22,9 +23,16 @@ static const char help[] =
     "  --depth-samples M      of each inner path: 1 to 64 (as --samples); gauss-exp: 2 to 16 (16)\n"
     "  --depth chapman|inner  how the optical depth is found (gauss-exp: chapman, else inner)\n"
     "  --orders single|all    orders of scattering: once, or all of them by a table built at the start (all)\n"
-    "  --table accurate|small which table (accurate)\n"
+    "  --table accurate|small|large|ALTITUDES,DETAILED,SUNS\n"
+    "                         which table, or one of these sizes: 4 to 32, 0 to ALTITUDES, 8 to 64 (accurate)\n"
+    "  --table-format packed|float\n"
+    "                         its numbers: 16 and 8 bits, or floats (packed)\n"
+    "  --grid                 the table's light by way of a grid per altitude and sun, where there can be one\n"
     "  --ground none|lit      what the ground adds to rays that meet it: nothing, or its own light (none); that it\n"
     "                         lights the air belongs to all orders in either case\n"
+    "  --model NAME           a published model instead of the core (render --help lists them); of the options above\n"
+    "                         only --orders and --ground count then\n"
+    "  --model-cache DIR      keeps that model's tables that take long to build in this folder\n"
     "  -h, --help             this text\n"
     "  -V, --version          the version\n\n"
     "Queries: CSV with the columns altitude_km (0 to 1e6), sun_zenith_deg and view_zenith_deg (0 to 180) and\n"
@@ -51,8 +59,11 @@ static const char help[] =
 typedef struct settings {
     const char *atmosphere;
     skv_quality quality;
-    bool all_orders;
+    bool all_orders, lit_ground, grid;
     skv_table_kind table;
+    int table_sizes[3], table_format; ///< sizes 0: the kind's
+    const baseline *model;            ///< NULL: the core
+    const char *model_cache;
 } settings;
 
 /// What was typed; -1 where nothing was.
@@ -85,6 +96,9 @@ static int combine(const choices *c, settings *s) {
     else
         q->terms &= ~(uint32_t)SKV_WITH_GROUND;
     s->all_orders = c->orders != 0;
+    s->lit_ground = c->ground > 0;
+    if (s->grid && !s->all_orders)
+        return fail_usage("skyvert eval: --grid: a grid belongs to --orders all");
     s->table = (skv_table_kind)c->table;
     return 0;
 }
@@ -97,16 +111,45 @@ static const struct option options[] = {{"atmosphere", required_argument, NULL, 
                                         {"depth", required_argument, NULL, 'd'},
                                         {"orders", required_argument, NULL, 'o'},
                                         {"table", required_argument, NULL, 'T'},
+                                        {"table-format", required_argument, NULL, 'F'},
+                                        {"grid", no_argument, NULL, 'G'},
+                                        {"model", required_argument, NULL, 'M'},
+                                        {"model-cache", required_argument, NULL, 'C'},
                                         {"ground", required_argument, NULL, 'g'},
                                         {"help", no_argument, NULL, 'h'},
                                         {"version", no_argument, NULL, 'V'},
                                         {NULL, 0, NULL, 0}};
+
+/// A kind, or three sizes.
+static int take_table(const char *text, choices *c, settings *s) {
+    static const struct {
+        const char *name;
+        int low, high;
+    } sizes[3] = {{"--table ALTITUDES", 4, 32}, {"--table DETAILED", 0, 32}, {"--table SUNS", 8, 64}};
+    char part[3][12];
+    char end;
+    if (sscanf(text, "%11[0-9],%11[0-9],%11[0-9]%c", part[0], part[1], part[2], &end) != 3)
+        return option_choice("eval", "table", text, table_names, &c->table);
+    for (int i = 0; i < 3; i++) {
+        const int high = i == 1 ? s->table_sizes[0] : sizes[i].high; // no more detailed rows than rows
+        const int result = option_integer("eval", sizes[i].name, part[i], sizes[i].low, high, &s->table_sizes[i]);
+        if (result)
+            return result;
+    }
+    return 0;
+}
+
+static int take_model(const char *name, settings *s) {
+    s->model = baseline_find(name);
+    return s->model ? 0 : fail_usage("skyvert eval: --model %.60s: skyvert render --help lists the models", name);
+}
 
 static int take_option(int letter, choices *c, settings *s) {
     static const char *const tiers[] = {"fast", "standard", "high", NULL};
     static const char *const rules[] = {"uniform", "keller", "gauss-exp", NULL}; // as in skv_rule
     static const char *const depths[] = {"chapman", "inner", NULL};              // as in skv_depth
     static const char *const grounds[] = {"none", "lit", NULL};
+    static const char *const formats[] = {"packed", "float", NULL}; // as in skv_table_format
     switch (letter) {
     case 'a':
         s->atmosphere = optarg;
@@ -120,7 +163,17 @@ static int take_option(int letter, choices *c, settings *s) {
     case 'o':
         return option_choice("eval", "orders", optarg, order_names, &c->orders);
     case 'T':
-        return option_choice("eval", "table", optarg, table_names, &c->table);
+        return take_table(optarg, c, s);
+    case 'F':
+        return option_choice("eval", "table-format", optarg, formats, &s->table_format);
+    case 'G':
+        s->grid = true;
+        return 0;
+    case 'M':
+        return take_model(optarg, s);
+    case 'C':
+        s->model_cache = optarg;
+        return 0;
     case 'g':
         return option_choice("eval", "ground", optarg, grounds, &c->ground);
     case 'n':
@@ -166,17 +219,55 @@ static int build_model(skv_model *model, const atmosphere_file *file, const char
     return fail_usage("%.200s: the core refuses these values together (status %d)", path, (int)status);
 }
 
+static int show(void *context, double done) {
+    (void)context;
+    progress_update((size_t)(1000 * done));
+    return 0;
+}
+
+/// The state of a published model in source->other_state.
+static int build_other(const settings *s, const atmosphere_file *file, answers_source *source) {
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const baseline_wants wants = {.all = s->all_orders,
+                                  .lit_ground = s->lit_ground,
+                                  .threads = processors < 1   ? 1
+                                             : processors > 8 ? 8
+                                                              : (int)processors,
+                                  .progress = show,
+                                  .cache = s->model_cache};
+    const char *why = "";
+    baseline_cost cost;
+    if (s->all_orders && !(s->model->can & BASELINE_ALL))
+        return fail_usage("skyvert eval: --model %s knows light scattered once only: --orders single", s->model->name);
+    progress_begin(s->model->name, 1000);
+    const int status = s->model->build(&source->other_state, &file->atmosphere, &wants, &cost, &why);
+    progress_end();
+    if (status == -2)
+        return fail_usage("skyvert eval: --model %s: this air is beyond it: %s", s->model->name, why);
+    if (status)
+        return fail_job("skyvert eval: --model %s: out of memory", s->model->name);
+    source->other = s->model;
+    return 0;
+}
+
 static int evaluate(const settings *s, const atmosphere_file *file) {
     skv_model model;
     query_list queries = {0};
-    all_orders orders = {0};
+    all_orders orders = {.floats = s->table_format == SKV_TABLE_FLOAT};
+    answers_source source = {.model = &model, .quality = &s->quality, .grid = s->grid};
+    memcpy(orders.sizes, s->table_sizes, sizeof orders.sizes);
     int result = build_model(&model, file, s->atmosphere);
     if (result == 0)
         result = queries_read(&queries, stdin, "stdin");
-    if (result == 0 && s->all_orders && queries.rows > 0)
+    if (result == 0 && s->model && queries.rows > 0)
+        result = build_other(s, file, &source);
+    else if (result == 0 && s->all_orders && queries.rows > 0)
         result = all_orders_build(&orders, "eval", &model, s->table, 0, true);
+    source.table = orders.table;
     if (result == 0)
-        result = answers_write(&queries, &model, orders.table, &s->quality, file);
+        result = answers_write(&queries, &source, file);
+    if (source.other)
+        source.other->release(source.other_state);
     all_orders_free(&orders);
     queries_free(&queries);
     return result;

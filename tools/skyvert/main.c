@@ -19,7 +19,9 @@ static const subcommand subcommands[] = {
     {"render", cmd_render, "a picture of the sky (EXR or PNG)"},
     {"track", cmd_track, "the skies along a recorded flight (EXR each, a contact sheet, a CSV)"},
     {"dome", cmd_dome, "a sky dome as a mesh with vertex colours (PLY)"},
+    {"trade", cmd_trade, "error and cost of every configuration and of other models: tables and pictures"},
     {"bake", cmd_bake, "tables for engines (sky-view, scattering, ...), a model as C"},
+    {"plan", cmd_plan, "the cheapest configuration that is good enough for a scene, and its skv_config.h"},
 };
 
 static int print_help(void) {
@@ -39,8 +41,8 @@ static int run_subcommand(int argc, char **argv) {
             optind = 0; // starts getopt_long() anew
             return subcommands[i].run(argc, argv);
         }
-    return fail_usage("skyvert: unknown command '%s': eval, sun, render, track, dome or bake (skyvert --help)",
-                      argv[0]);
+    return fail_usage(
+        "skyvert: unknown command '%s': eval, sun, render, track, dome, trade, plan or bake (skyvert --help)", argv[0]);
 }
 
 /// A standard stream that is closed would lend its number to the next file that is opened: hold it with one that fails.
@@ -65,7 +67,8 @@ int main(int argc, char **argv) {
         return option_unknown("skyvert", c, argv);
     }
     if (optind >= argc)
-        return fail_usage("skyvert: no command given: eval, sun, render, track, dome or bake (skyvert --help)");
+        return fail_usage(
+            "skyvert: no command given: eval, sun, render, track, dome, trade, plan or bake (skyvert --help)");
     const int first = optind;
     return run_subcommand(argc - first, argv + first);
 }

@@ -229,10 +229,15 @@ int output_commit(output *out) {
         ok = false;
         error = errno;
     }
+    if (!ok)
+        return output_fail(out, error ? strerror(error) : "disk full or pipe closed");
+    output_discard(out);
+    return 0;
+}
+
+int output_fail(output *out, const char *why) {
     const int result =
-        ok ? 0
-           : fail_job("%.200s: writing failed: %s", strcmp(out->path, "-") == 0 ? "standard output" : out->path,
-                      error ? strerror(error) : "disk full or pipe closed");
+        fail_job("%.200s: writing failed: %s", strcmp(out->path, "-") == 0 ? "standard output" : out->path, why);
     output_discard(out);
     return result;
 }

@@ -27,10 +27,13 @@ static const char *projection_words(const projection *map) {
 static const double degree = 3.14159265358979323846 / 180.0;
 
 static void describe(const picture *image, const scene *view, char *text, size_t size) {
-    char air[400];
-    snprintf(text, size, "%s; %s; discs of sun and moon %s. Linear BT.709, (1,1,1) = %g cd/m2.",
-             projection_words(&image->map), sky_options_describe(view->options, air, sizeof air),
-             view->around.discs > 0 ? "drawn" : "not drawn", (double)SKV_WHITE_LUMINANCE);
+    char air[400], by[200] = "";
+    if (view->other)
+        other_model_describe(view->other, by, sizeof by);
+    snprintf(text, size, "%s; %s%s%s; discs of sun and moon %s. Linear BT.709, (1,1,1) = %g cd/m2.",
+             projection_words(&image->map), by, view->other ? " instead of " : "",
+             sky_options_describe(view->options, air, sizeof air), view->around.discs > 0 ? "drawn" : "not drawn",
+             (double)SKV_WHITE_LUMINANCE);
 }
 
 /// Zone time at sea: whole hours by longitude. @return what to add to it to get UTC, seconds
@@ -52,10 +55,7 @@ static int write_exr_stream(const skv_exr_image *exr, const char *path) {
     if (opened != 0)
         return opened;
     const int result = skv_exr_write(fileno(out.stream), exr, message, sizeof message);
-    if (result == SKV_EXR_OK)
-        return output_commit(&out);
-    output_discard(&out);
-    return fail_job("%.200s: writing failed: %s", path, message);
+    return result == SKV_EXR_OK ? output_commit(&out) : output_fail(&out, message);
 }
 
 int picture_write_exr(const picture *image, const picture_options *options, scene *view, const moment *now,
@@ -126,10 +126,7 @@ int png_write_file(const char *command, const void *pixels, int width, int heigh
     if (opened != 0)
         return opened;
     const int result = skv_png_write(fileno(out.stream), &png, message, sizeof message);
-    if (result == SKV_PNG_OK)
-        return output_commit(&out);
-    output_discard(&out);
-    return fail_job("%.200s: writing failed: %s", path, message);
+    return result == SKV_PNG_OK ? output_commit(&out) : output_fail(&out, message);
 }
 #else
 int png_write_file(const char *command, const void *pixels, int width, int height, int channels, int bits,

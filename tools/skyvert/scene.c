@@ -233,12 +233,21 @@ static bool find_radiance(scene *view, size_t n, const float *direction_enu, flo
     return done;
 }
 
+static void other_radiance(scene *view, size_t n, const float *direction_enu, float *radiance) {
+    const double start_s = processor_s();
+    other_model_radiance(view->other, n, direction_enu, (size_t)view->model.bands, radiance);
+    view->cost.radiance_s += processor_s() - start_s;
+    view->cost.rays += n;
+}
+
 bool scene_colours(scene *view, size_t n, const float *direction_enu, float *radiance, float *rgb, float *luminance) {
     float transmittance[AROUND_BATCH * 4];
     const size_t bands = (size_t)view->model.bands;
     for (size_t first = 0; first < n; first += AROUND_BATCH) {
         const size_t count = n - first < AROUND_BATCH ? n - first : AROUND_BATCH;
-        if (!find_radiance(view, count, direction_enu + 3 * first, radiance + bands * first, transmittance))
+        if (view->other)
+            other_radiance(view, count, direction_enu + 3 * first, radiance + bands * first);
+        else if (!find_radiance(view, count, direction_enu + 3 * first, radiance + bands * first, transmittance))
             return false;
     }
     const double start_s = processor_s();
@@ -254,8 +263,10 @@ scene_zenith_light scene_zenith(scene *view) {
     const int bands = view->model.bands, discs = view->around.discs;
     scene_zenith_light zenith = {0.0, 0.0};
     view->around.discs = 0;
-    const bool done = find_radiance(view, 1, up, radiance, transmittance) &&
-                      skv_colour(matrix, bands, 1, radiance, 0, rgb, 0, &luminance, 0) == SKV_OK;
+    bool done = find_radiance(view, 1, up, radiance, transmittance);
+    if (done && view->other)
+        other_radiance(view, 1, up, radiance);
+    done = done && skv_colour(matrix, bands, 1, radiance, 0, rgb, 0, &luminance, 0) == SKV_OK;
     view->around.discs = discs;
     if (!done || skv_limiting_magnitude(&limit, luminance, SKV_FIELD_FACTOR) != SKV_OK)
         return zenith;
@@ -280,7 +291,18 @@ static double per(double seconds, size_t count) {
     return count > 0 ? 1e9 * seconds / (double)count : 0.0;
 }
 
+static char *other_timing(const scene *view, char *text, size_t size) {
+    const scene_cost *const cost = &view->cost;
+    snprintf(text, size,
+             "%zu rays, %.0f ns of processor time each by %s, %.0f colour\ntables of %zu bytes, built in %.1f s",
+             cost->rays, per(cost->radiance_s, cost->rays), view->other->is->name, per(cost->colour_s, cost->rays),
+             view->other->cost.table_bytes, view->other->cost.build_s);
+    return text;
+}
+
 char *scene_timing(const scene *view, char *text, size_t size) {
+    if (view->other)
+        return other_timing(view, text, size);
     const scene_cost *const cost = &view->cost;
     const double radiance = per(cost->radiance_s, cost->rays), once = per(cost->once_s, cost->sampled);
     const double around = per(cost->around_s, cost->rays), colour = per(cost->colour_s, cost->rays);

@@ -5,6 +5,7 @@
 #include "all_orders.h"
 #include "around.h"
 #include "moment.h"
+#include "other_model.h"
 #include "sky_options.h"
 
 /// Processor time since the scene was zeroed, seconds, and rays.
@@ -16,7 +17,8 @@ typedef struct scene_cost {
 
 typedef struct scene {
     const sky_options *options;
-    bool progress; ///< set before scene_begin(): a bar where building the table takes long
+    const other_model *other; ///< draws instead of the core; NULL: the core. Set after scene_begin()
+    bool progress;            ///< set before scene_begin(): a bar where building the table takes long
     skv_model model;
     bool has_model;
     all_orders orders;
