@@ -134,7 +134,7 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
 /// Goes on with a build by a bounded piece of work.
 /// @param[out] permille  how much is done; 1000: the table is complete and further calls do nothing. NULL = not wanted.
 /// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT iff no build was begun.
-/// Cost:   at most 200,000 instructions on x86-64, a fifth of it on average (README "Tables"). No allocation. Two
+/// Cost:   at most 110,000 instructions on x86-64 (324,000 in scalar code), a third of it on average (README "Tables"). No allocation. Two
 /// builders may run in two threads.
 skv_status skv_table_step(skv_table_builder *builder, int *permille);
 

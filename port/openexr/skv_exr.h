@@ -46,6 +46,7 @@ typedef struct skv_exr_image {
     size_t extras;
 } skv_exr_image;
 
+/// Answers of all calls of this port.
 enum {
     SKV_EXR_OK = 0,
     SKV_EXR_ERR_ARGUMENT = -1, ///< a field is outside its range, or a pointer that must be set is NULL

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Instructions of the dearest step of a table's build (table.h: at most 200,000 where 8 rays go side by side; the goal was 50,000) and of whole
+# Instructions of the dearest step of a table's build (table.h: at most 120,000 where 8 rays go side by side; the goal was 50,000) and of whole
 # builds, counted by callgrind: the library as gcc builds it by default, and scalar.
 . "$(dirname "$0")/lib.sh"
 [ "$(uname -m)" = x86_64 ] && have valgrind && have gcc || { echo "steps: needs an x86-64, gcc and valgrind"; exit 77; }
-LIMIT=200000
+LIMIT=120000
 # counted PROGRAM [KIND]: `name instructions` lines of its windows
 counted() {
     local dir

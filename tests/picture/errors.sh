@@ -35,7 +35,7 @@ no "tier" 2 '--tier' "${r[@]}" --tier best --out x.exr
 no "samples" 2 '--samples' "${r[@]}" --samples 65 --out x.exr
 no "samples of gauss-exp" 2 '--samples 17.*2 to 16' "${r[@]}" --samples 17 --out x.exr
 no "orders" 2 '--orders two: allowed is single or all' "${r[@]}" --orders two --out x.exr
-no "table" 2 '--table huge: allowed is accurate or small' "${r[@]}" --table huge --out x.exr
+no "table" 2 '--table huge: allowed is accurate, small or large' "${r[@]}" --table huge --out x.exr
 no "grid" 2 '--grid maybe: allowed is off, on or auto' "${r[@]}" --grid maybe --out x.exr
 no "discs" 2 '--discs auto: allowed is off or on' "${r[@]}" --discs auto --out x.exr
 no "moon" 2 '--moon full: allowed is off, on or auto' "${r[@]}" --moon full --out x.exr

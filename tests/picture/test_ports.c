@@ -1,48 +1,14 @@
 // The EXR and PNG writers, read back by other programs: oiiotool, exrheader, pngcheck. Each test writes a file whose
 // every sample is known and compares what the other program prints.
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "check.h"
 #include "port/openexr/skv_exr.h"
 #include "port/png/skv_png.h"
+#include "ports.h"
 
 #define WIDTH  37 // neither a multiple of anything nor of the 16 lines of a chunk
 #define HEIGHT 35
-
-static char folder[300], path[400];
-
-static int open_file(const char *name) {
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    const int fd = open(path, O_RDWR | O_CREAT | O_TRUNC, 0600);
-    assert_true(fd >= 0);
-    return fd;
-}
-
-/// Text that a program prints about the file.
-static char *output_of(const char *program) {
-    static char text[1 << 20];
-    char command[500];
-    snprintf(command, sizeof command, "%s '%s' 2>&1", program, path);
-    FILE *pipe = popen(command, "r");
-    assert_true(pipe != NULL);
-    const size_t n = fread(text, 1, sizeof text - 1, pipe);
-    text[n] = '\0';
-    const int status = pclose(pipe);
-    if (status != 0)
-        fail_msg("%s: status %d: %s", command, status, text);
-    return text;
-}
-
-static void expect_line(const char *text, const char *line) {
-    if (!strstr(text, line))
-        fail_msg("want the line '%s' in:\n%.3000s", line, text);
-}
 
 /// Samples over many powers of two, some negative, no two alike.
 static float sample(int x, int y, int c) {
@@ -334,20 +300,6 @@ static void test_png_errors(void **state) {
     image.width = 0;
     expect_png(SKV_PNG_ERR_ARGUMENT, full, &image, "width or height");
     close(full);
-}
-
-static int set_up(void **state) {
-    (void)state;
-    const char *build = getenv("B"); // tests/run.sh exports it
-    snprintf(folder, sizeof folder, "%.200s/ports-XXXXXX", build ? build : ".");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    char command[400];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
 }
 
 int main(void) {

@@ -20,7 +20,7 @@ BEGIN {
     stars = time == "dusk" ? pick("yes no") : "no"
     vertices = pick("256 512 1024 2048 4096")
     split("x86-avx2 cortex-m4f x86-sse2 cortex-a53 cortex-m7", targets, " ")
-    error = time == "dusk" ? between(7, 15) : time == "low" ? between(5, 13) : between(4, 12)
+    error = time == "dusk" ? between(9, 16) : between(7, 15)
     if (what == "options") { printf "%d %s %.1f\n", vertices, targets[number % 5 + 1], error; exit }
     printf "; random scene %d of seed %d (tests/plan/scenes.awk)\n[planet]\npreset = %s\n", number, seed, planet
     printf "[observer]\nheight_m = %.0f, %.0f\n[sun]\nelevation_deg = %.1f, %.1f\n", height, height_to, sun, sun_to

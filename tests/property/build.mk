@@ -9,7 +9,7 @@ TEST_BIN += $(PROPERTY_TESTS)
 TEST_SCRIPT += tests/property/lanes.sh tests/property/sanitize.sh
 test-build: $(LANES_TESTS)
 
-$(B)/tests/property/%.o: tests/property/%.c $(wildcard tests/property/*.h) tests/check.h $(wildcard tools/reference/*.h) $(HEADERS)
+$(B)/tests/property/%.o: tests/property/%.c $(wildcard tests/property/*.h) tests/airs.h tests/check.h $(wildcard tools/reference/*.h) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -Isrc -Itests -Itools/reference -c $< -o $@
 

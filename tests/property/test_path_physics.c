@@ -7,8 +7,7 @@
 #include "check.h"
 #include "paths.h"
 #include "random.h"
-
-#define PI 3.14159265358979323846
+#include "reference_air.h"
 
 static ref_tracer tracer;
 static ref_view view;
@@ -19,20 +18,10 @@ static void make(const ref_atmosphere *a) {
     assert_int_equal(ref_guide_make(&tracer.guide, &tracer.air, 2), 0);
 }
 
-static ref_atmosphere earth(double times, double albedo) {
-    ref_atmosphere a = {.bands = 4,
-                        .radius_km = 6360,
-                        .top_km = 60,
-                        .irradiance = {1, 1, 1, 1},
-                        .rayleigh_scattering = {0.0331, 0.01697, 0.00957, 0.0058},
-                        .rayleigh = {.kind = REF_EXPONENTIAL, .scale_km = 8},
-                        .aerosol_scattering = {0.0514, 0.045, 0.0401, 0.0363},
-                        .aerosol_extinction = {0.0643, 0.0562, 0.0502, 0.0454},
-                        .aerosol = {.kind = REF_EXPONENTIAL, .scale_km = 1.2},
-                        .phase = REF_CORNETTE_SHANKS,
-                        .g = 0.7,
-                        .ozone_absorption = {8.5e-5, 0.00115, 0.0027, 0.00065},
-                        .ozone = {.kind = REF_TENT, .peak_km = 25, .half_width_km = 15}};
+// As many times the air, over ground of this albedo.
+static ref_atmosphere earth_of(double times, double albedo) {
+    ref_atmosphere a = earth();
+    a.g = 0.7;
     for (int k = 0; k < 4; k++) {
         a.albedo[k] = albedo;
         a.rayleigh_scattering[k] *= times;
@@ -90,7 +79,7 @@ static void batches_are_spread_evenly(void **state) {
 static void tables_agree_with_the_integral(void **state) {
     (void)state;
     ref_air air;
-    ref_atmosphere airs[2] = {earth(1, 0), earth(1, 0)};
+    ref_atmosphere airs[2] = {earth_of(1, 0), earth_of(1, 0)};
     airs[1].aerosol.scale_km = 0.1;
     for (int n = 0; n < 2; n++) {
         ref_random r = ref_random_start(5, (uint64_t)n);
@@ -130,7 +119,7 @@ static void thin_air_scatters_once(void **state) {
     static const double angles[4][3] = {{30, 60, 100}, {70, 85, 10}, {85, 20, 150}, {88, 110, 60}};
     double later[2][4] = {{0}};
     for (int n = 0; n < 2; n++) {
-        const ref_atmosphere a = earth(n ? 1e-4 : 1e-3, 0);
+        const ref_atmosphere a = earth_of(n ? 1e-4 : 1e-3, 0);
         make(&a);
         for (int i = 0; i < 4; i++) {
             ref_tally t = {0};
@@ -172,7 +161,7 @@ static double straight_through(const ref_atmosphere *a, int band) {
 static void energy_is_conserved(void **state) {
     (void)state;
     enum { SETS = 12 };
-    ref_atmosphere a = earth(1, 1);
+    ref_atmosphere a = earth_of(1, 1);
     memcpy(a.aerosol_extinction, a.aerosol_scattering, sizeof a.aerosol_extinction);
     memset(a.ozone_absorption, 0, sizeof a.ozone_absorption);
     make(&a);
@@ -207,13 +196,11 @@ static void energy_is_conserved(void **state) {
     ref_tracer_free(&tracer);
 }
 
-static const double ones_km[2] = {0, 1}, ones[2] = {1, 1};
-
 // A slab: 1 km on a planet of 600000 km, black below.
 static ref_atmosphere slab(double g, const double depth[4], const double albedo[4]) {
     ref_atmosphere a = {.bands = 4, .radius_km = 6e5, .top_km = 1, .irradiance = {1, 1, 1, 1}, .g = g};
     a.phase = REF_HENYEY_GREENSTEIN;
-    a.aerosol = (ref_profile){.kind = REF_TABLE, .table_km = ones_km, .table_density = ones, .rows = 2};
+    a.aerosol = uniform_profile();
     for (int k = 0; k < 4; k++) {
         a.aerosol_extinction[k] = depth[k];
         a.aerosol_scattering[k] = depth[k] * albedo[k];
@@ -472,7 +459,7 @@ static void a_plain_tracer_agrees(void **state) {
     enum { PATHS = 6000 };
     static const double rays[6][4] = {{0, 40, 70, 30},   {2, 70, 95, 120},  {10, 60, 120, 60},
                                       {0.5, 30, 89, 90}, {30, 80, 100, 90}, {1, 88, 80, 150}};
-    const ref_atmosphere a = earth(1, 0.3);
+    const ref_atmosphere a = earth_of(1, 0.3);
     double z2 = 0;
     make(&a);
     for (int n = 0; n < 6; n++) {
@@ -511,7 +498,7 @@ static void names_of_matter_do_not_count(void **state) {
     static const double rays[4][4] = {{0, 60, 40, 30}, {1, 80, 100, 90}, {0.2, 91, 80, 20}, {10, 50, 95, 120}};
     double light[3][4][4], error[3][4][4];
     for (int n = 0; n < 3; n++) {
-        ref_atmosphere a = earth(1, 0.3);
+        ref_atmosphere a = earth_of(1, 0.3);
         const double share = n == 0 ? 0 : n == 1 ? 0.5 : 1;
         a.dust = a.aerosol;
         a.dust_phase = a.phase;

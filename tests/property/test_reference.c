@@ -3,11 +3,7 @@
 #include <stdio.h>
 
 #include "check.h"
-#include "single.h"
-
-#define PI 3.14159265358979323846
-
-static const double ones_km[2] = {0, 1}, ones[2] = {1, 1};
+#include "reference_air.h"
 
 static ref_atmosphere uniform_air(double radius_km, double top_km, double scattering, double extinction) {
     ref_atmosphere a = {.bands = 3, .radius_km = radius_km, .top_km = top_km, .phase = REF_HENYEY_GREENSTEIN, .g = 0.8};
@@ -17,26 +13,8 @@ static ref_atmosphere uniform_air(double radius_km, double top_km, double scatte
         a.aerosol_scattering[i] = scattering * (i + 1);
         a.aerosol_extinction[i] = extinction * (i + 1);
     }
-    a.aerosol = (ref_profile){.kind = REF_TABLE, .table_km = ones_km, .table_density = ones, .rows = 2};
+    a.aerosol = uniform_profile();
     return a;
-}
-
-static ref_atmosphere earth(void) {
-    return (ref_atmosphere){.bands = 4,
-                            .radius_km = 6360,
-                            .top_km = 60,
-                            .wavelength_nm = {440, 520, 600, 680},
-                            .irradiance = {1, 1, 1, 1},
-                            .albedo = {0.1, 0.1, 0.1, 0.1},
-                            .rayleigh_scattering = {0.0331, 0.01697, 0.00957, 0.0058},
-                            .rayleigh = {.kind = REF_EXPONENTIAL, .scale_km = 8},
-                            .aerosol_scattering = {0.0514, 0.045, 0.0401, 0.0363},
-                            .aerosol_extinction = {0.0643, 0.0562, 0.0502, 0.0454},
-                            .aerosol = {.kind = REF_EXPONENTIAL, .scale_km = 1.2},
-                            .phase = REF_CORNETTE_SHANKS,
-                            .g = 0.8,
-                            .ozone_absorption = {8.5e-5, 0.00115, 0.0027, 0.00065},
-                            .ozone = {.kind = REF_TENT, .peak_km = 25, .half_width_km = 15}};
 }
 
 static double relative(double got, double want) {

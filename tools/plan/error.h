@@ -13,7 +13,7 @@
 /// What is promised over what is expected: the error of other samples of the scene is at most that in nearly all
 /// scenes (tests/plan). Where the worst fiftieth lies even beyond, few rays would decide whether a promise holds: then
 /// it is promised.
-#define PLAN_MARGIN 1.9
+#define PLAN_MARGIN 1.7
 #define PLAN_BEYOND 0.98
 
 typedef struct plan_judge {

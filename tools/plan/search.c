@@ -8,7 +8,8 @@ const char *const plan_term_names[PLAN_TERMS] = {
     "light scattered again", "accurate table", "aerosol", "dust", "ozone", "lit ground", "fourth band", "last sample"};
 
 /// Frames and directions that errors are looked at.
-enum { FRAMES = 40, VIEWS = 24, SAMPLES_MOST = 10, CANDIDATES_MOST = 4096 };
+/// Two samples a leg are far off in few directions, near the horizon: no share of directions can be promised.
+enum { FRAMES = 40, VIEWS = 24, SAMPLES_LEAST = 3, SAMPLES_MOST = 10, CANDIDATES_MOST = 4096 };
 
 typedef struct search {
     const plan_scene *scene;
@@ -121,7 +122,7 @@ static skv_status add(search *s, const plan_config *config) {
 /// All samples, with a grid and without.
 static skv_status add_family(search *s, plan_config config) {
     for (int grid = 0; grid < (config.light != PLAN_SINGLE && grid_holds(s->scene) ? 2 : 1); grid++)
-        for (int n = 2; n <= SAMPLES_MOST; n++) {
+        for (int n = SAMPLES_LEAST; n <= SAMPLES_MOST; n++) {
             config.grid = grid;
             config.samples = n;
             const skv_status status = add(s, &config);

@@ -25,7 +25,6 @@ typedef struct pool_air {
 static const pool_air pool[] = {
     {SKV_PRESET_EARTH_CLEAR, 0, 110}, {SKV_PRESET_EARTH_CLEAR, 60, 90}, {SKV_PRESET_EARTH_CLEAR, 30, 90},
     {SKV_PRESET_EARTH_CLEAR, 12, 90}, {SKV_PRESET_EARTH_HAZY, 0, 110},  {SKV_PRESET_EARTH_HAZY, 25, 110},
-    {SKV_PRESET_MARS, 0, 70},
 };
 
 static int trace(const skv_atmosphere *air, int lit, ref_query *query, size_t n, ref_total *total) {
@@ -100,7 +99,7 @@ static int make_pool(size_t first) {
         skv_atmosphere air;
         plan_air(&scene, 0, 4, &air);
         for (int k = 0; k < pool[i].rays; k++)
-            query[k] = pool_ray((double)air.radius_km, pool[i].preset == SKV_PRESET_MARS ? 1.3 : 1);
+            query[k] = pool_ray((double)air.radius_km, 1);
         if (i < first)
             continue;
         if (trace(&air, 1, query, (size_t)pool[i].rays, total) != 0)

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef SKV_HAVE_EXR_TEXTURE
-#include "port/bake/skv_exr_texture.h"
+#ifdef SKV_HAVE_EXR
+#include "port/openexr/skv_exr_texture.h"
 #endif
 
 /// raw16f: texels begin at a multiple of this.
@@ -31,14 +31,10 @@ static size_t values_of(const bake_texture *texture) {
 
 // ---- EXR
 
-#ifdef SKV_HAVE_EXR_TEXTURE
-static int write_failed(const output *out, const char *message) {
-    return fail_job("%.200s: writing failed: %s", out->path, message);
-}
-
+#ifdef SKV_HAVE_EXR
 int bake_write_exr(const bake_texture *texture, const bake_options *options, output *out) {
     const skv_bake_table *const map = &texture->map;
-    const skv_exr_number numbers[] = {
+    const skv_exr_extra numbers[] = {
         {"skyvert.radiusKm", map->radius_km}, {"skyvert.topKm", map->top_km},      {"skyvert.heightKm", map->height_km},
         {"skyvert.muSun", map->mu_s},         {"skyvert.muSunMin", map->mu_s_min}, {"skyvert.scale0", map->scale[0]},
         {"skyvert.scale1", map->scale[1]},    {"skyvert.scale2", map->scale[2]},
@@ -63,7 +59,7 @@ int bake_write_exr(const bake_texture *texture, const bake_options *options, out
     for (int l = 0; l < map->layers; l++)
         exr.layer_name[l] = texture->layer_name[l];
     const int result = skv_exr_texture_write(fileno(out->stream), &exr, message, sizeof message);
-    return result == SKV_EXR_TEXTURE_OK ? 0 : write_failed(out, message);
+    return result == SKV_EXR_OK ? 0 : output_fail(out, message);
 }
 #else
 int bake_write_exr(const bake_texture *texture, const bake_options *options, output *out) {

@@ -3,8 +3,7 @@
 #ifndef SKV_PORT_EXR_TEXTURE_H
 #define SKV_PORT_EXR_TEXTURE_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "skv_exr.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -12,11 +11,6 @@ extern "C" {
 
 #define SKV_EXR_TEXTURE_SIDE_MAX   65536
 #define SKV_EXR_TEXTURE_LAYERS_MAX 4
-
-typedef struct skv_exr_number {
-    const char *name; ///< at most 31 bytes
-    float value;
-} skv_exr_number;
 
 typedef struct skv_exr_texture {
     int width, height; ///< [1, SKV_EXR_TEXTURE_SIDE_MAX]
@@ -31,22 +25,15 @@ typedef struct skv_exr_texture {
     const char *comments;  ///< for people; NULL = none
     const char *text_name; ///< name of a further text, e.g. for programs; NULL = none
     const char *text;
-    const skv_exr_number *number; ///< float attributes
+    const skv_exr_extra *number; ///< float attributes
     size_t numbers;
 } skv_exr_texture;
-
-enum {
-    SKV_EXR_TEXTURE_OK = 0,
-    SKV_EXR_TEXTURE_ERR_ARGUMENT = -1, ///< a field is outside its range, or a pointer that must be set is NULL
-    SKV_EXR_TEXTURE_ERR_WRITE = -2,    ///< the system refused a write: errno is in the message
-    SKV_EXR_TEXTURE_ERR_LIBRARY = -3,  ///< OpenEXRCore refused, in its words; no memory
-};
 
 /// Writes to an open file, from its position 0.
 /// @param[in]  fd       open for writing, empty; stays open.
 /// @param[in]  texture
-/// @param[out] message  one line without a newline when the answer is not SKV_EXR_TEXTURE_OK; message_size >= 1.
-/// @return SKV_EXR_TEXTURE_OK or a negative code above; then what the file holds is of no use.
+/// @param[out] message  one line without a newline when the answer is not SKV_EXR_OK; message_size >= 1.
+/// @return SKV_EXR_OK or a negative code of skv_exr.h; then what the file holds is of no use.
 int skv_exr_texture_write(int fd, const skv_exr_texture *texture, char *message, size_t message_size);
 
 #ifdef __cplusplus
