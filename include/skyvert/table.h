@@ -95,6 +95,7 @@ typedef struct skv_table_builder {
     skv_frame frame;                 ///< of the cell in work
     float moment[7][SKV_BANDS_MAX];  ///< its gathered moments
     float source[SKV_BANDS_MAX][60]; ///< what its forward-scattering species sends in some directions
+    float seen;                      ///< the part of that species' phase function that the gathered rays have seen
     float change[SKV_BANDS_MAX];     ///< of the mean radiance over all cells, in this pass
     float before[SKV_BANDS_MAX];     ///< in the last one
     float rate[SKV_BANDS_MAX];       ///< of the series that the rest is taken as
@@ -134,8 +135,8 @@ skv_status skv_table_begin(skv_table_builder *builder, const skv_model *model, c
 /// Goes on with a build by a bounded piece of work.
 /// @param[out] permille  how much is done; 1000: the table is complete and further calls do nothing. NULL = not wanted.
 /// @return SKV_OK; SKV_ERR_NULL; SKV_ERR_LAYOUT iff no build was begun.
-/// Cost:   at most 110,000 instructions on x86-64 (324,000 in scalar code), a third of it on average (README "Tables"). No allocation. Two
-/// builders may run in two threads.
+/// Cost:   at most 110,000 instructions on x86-64 (324,000 in scalar code), a third of it on average (README "Tables").
+/// No allocation. Two builders may run in two threads.
 skv_status skv_table_step(skv_table_builder *builder, int *permille);
 
 /// A whole build at once: skv_table_begin() and all its steps.

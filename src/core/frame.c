@@ -220,8 +220,10 @@ static void skv_frame_nodes(skv_frame *f, float lowest) {
         return;
     if (q->samples == 4 && t > 0.0f) {
         q->samples = 6;
-        skv_frame_nodes_between(f, t);
-        return;
+        if (t < 1.0f) {
+            skv_frame_nodes_between(f, t);
+            return;
+        }
     }
     for (int i = 0; i < q->samples; i++) {
         f->node[i] = skv_gauss_node[skv_gauss_offset(q->samples) + i];

@@ -176,7 +176,11 @@ static void skv_grid_direction(const skv_frame *frame, int light, int row, int a
 }
 
 /// Rows worked on at a time: they fill blocks of lanes all but for a few.
+#if SKV_LANES < 8
+#define SKV_GRID_AT_ONCE 1
+#else
 #define SKV_GRID_AT_ONCE 4
+#endif
 
 /// Some rows of a light's grid, from `row` on.
 static SKV_NOINLINE void skv_grid_rows(const skv_frame *frame, int light, int row, float *out) {

@@ -16,3 +16,17 @@ RIG_PROGRAMS += $(RIG)/guest/bin/panel2-san
 $(RIG)/guest/bin/panel2-san: $(RIG_PANEL2)
 	@mkdir -p $(@D)
 	$(RIG_CC) $(RIG_SANITIZE) $^ -L$(RIG_NEXT)/lib/aarch64-linux-gnu -lgpiod -o $@
+
+# skyvert-sim: plain C here, without a geoid.
+RIG_FLIGHT := $(COCKPIT_FLIGHT:$(B)/%.o=%.c)
+$(eval $(call RIG_PROGRAM,skyvert-sim,$(COCKPIT_SIM_SRC) $(COCKPIT_COMMON_SRC) $(RIG_FLIGHT) $(SKV_CAN_SRC) $(SKV_CAS_SRC),-lskyvert))
+$(eval $(call RIG_SANITIZED,skyvert-sim,$(COCKPIT_SIM_SRC) $(COCKPIT_COMMON_SRC) $(RIG_FLIGHT) $(SKV_CAN_SRC) $(SKV_CAS_SRC),-lskyvert))
+$(eval $(call RIG_PROGRAM,sim-check,tests/cockpit/sim_check.c,))
+
+# skyvert-cockpit, without OpenEXR.
+RIG_COCKPIT := $(COCKPIT_SRC) $(COCKPIT_COMMON_SRC) $(COCKPIT_TOOLS:$(B)/%.o=%.c) $(SKV_CAN_SRC) $(SKV_CAN_FAKE_SRC) $(SKV_CAS_SRC) $(RIG_GPIO) port/png/png.c
+RIG_COCKPIT_FLAGS := -DSKV_HAVE_INIH=1 -DSKV_HAVE_PNG
+$(RIG)/plain/tools/%.o $(RIG)/san/tools/%.o: RIG_FLAGS += $(RIG_COCKPIT_FLAGS)
+$(eval $(call RIG_PROGRAM,skyvert-cockpit,$(RIG_COCKPIT),-lskyvert -lgpiod -linih -lpng -lz))
+$(eval $(call RIG_SANITIZED,skyvert-cockpit,$(RIG_COCKPIT),-lskyvert -lgpiod -linih -lpng -lz))
+$(eval $(call RIG_PROGRAM,vertices,tests/cockpit/reader.c,))

@@ -45,7 +45,7 @@ void other_options_begin(other_options *options, const char *command) {
 static int take_model(other_options *options, const char *value) {
     const char *names[MODELS_MAX + 2] = {"skyvert"};
     int index = 0;
-    for (int i = 0; baselines[i] && i < MODELS_MAX; i++)
+    for (int i = 0; i < MODELS_MAX && baselines[i]; i++)
         names[i + 1] = baselines[i]->name;
     const int status = option_choice(options->command, "--model", value, names, &index);
     options->model = status == 0 && index > 0 ? baselines[index - 1] : NULL;

@@ -114,6 +114,7 @@ static int refuse(const plan_options *o, const plan_scene *scene) {
     skv_atmosphere air;
     skv_model model;
     skv_colour_matrix matrix;
+    plan_air(scene, 0, 4, &air);
     for (int i = 0; i < plan_airs(scene); i++) {
         plan_air(scene, i, 4, &air);
         if (skv_model_build(&model, &air) != SKV_OK)
