@@ -77,7 +77,7 @@ static int print_airs(const plan_scene *scene, const plan_config *config) {
         if (!built[i])
             return 1;
         if (config->light != PLAN_SINGLE)
-            print_table(built[i]->table[config->light == PLAN_SMALL ? SKV_TABLE_SMALL : SKV_TABLE_ACCURATE], i);
+            print_table(built[i]->table[plan_table_kind(config->light)], i);
     }
     printf("static const skv_atmosphere case_air[] = {\n");
     for (int i = 0; i < plan_airs(scene); i++)

@@ -275,7 +275,7 @@ static void sizes(const plan_counter *c, const plan_costs *costs, const plan_con
     cost->frame = costs->frame;
     cost->flash = all ? costs->flash : costs->flash_single;
     cost->stack = costs->stack[!all ? 0 : config->grid ? 2 : 1];
-    const skv_table_kind kind = config->light == PLAN_SMALL ? SKV_TABLE_SMALL : SKV_TABLE_ACCURATE;
+    const skv_table_kind kind = plan_table_kind(config->light);
     if (!all || !built || skv_table_spec_for(&spec, &built->model, kind) != SKV_OK)
         return;
     cost->table = (long)skv_table_size(&spec, config->bands);

@@ -34,7 +34,7 @@ enum { RAYS = 96, ONE_LANE = SKV_LANES == 1 };
 static skv_model model;
 static skv_frame frame;
 static float direction[RAYS][3], length_km[RAYS], radiance[RAYS][4], transmittance[RAYS][4], grid[8192];
-static uint32_t table[4000];
+static uint32_t table[5000];
 static float work_space[20000];
 static int silent;
 static unsigned window_number;

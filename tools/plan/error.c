@@ -41,7 +41,7 @@ static double find_similar(const plan_kind_of_ray *kind, int found[SIMILAR]) {
 
 plan_config plan_best(const plan_scene *scene) {
     const int bands = scene->preset < 0 ? scene->file.atmosphere.bands : 4;
-    return (plan_config){bands, plan_species(scene), scene->terrain, PLAN_ACCURATE, false, 16};
+    return (plan_config){bands, plan_species(scene), scene->terrain, PLAN_LARGE, false, 16};
 }
 
 static double largest(const float rgb[TRADE_BANDS]) {

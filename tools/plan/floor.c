@@ -55,7 +55,7 @@ static int print_row(pool_air *air, const double x[COLUMNS]) {
     plan_frame frame = {0, x[0], 90 - x[1]};
     plan_ray ray = {90 - x[2], x[3], INFINITY};
     const plan_samples one = {&air->scene, 1, 1, 0, 1, &frame, &ray};
-    const plan_config best = {BANDS, plan_species(&air->scene), true, PLAN_ACCURATE, false, 16};
+    const plan_config best = {BANDS, plan_species(&air->scene), true, PLAN_LARGE, false, 16};
     float rgb[1][TRADE_BANDS];
     double truth[3], most = 0;
     skv_colour_matrix m;

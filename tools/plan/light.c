@@ -53,8 +53,8 @@ void plan_shop_close(plan_shop *shop) {
     plan_built **const all = &shop->built[0][0][0];
     for (size_t i = 0; i < sizeof shop->built / sizeof *all; i++)
         if (all[i]) {
-            free(all[i]->table[0]);
-            free(all[i]->table[1]);
+            for (int k = 0; k < SKV_TABLE_KINDS; k++)
+                free(all[i]->table[k]);
             free(all[i]);
         }
     free(shop);
@@ -95,6 +95,10 @@ static skv_status build_table(plan_built *built, skv_table_kind kind, double gro
     return status;
 }
 
+skv_table_kind plan_table_kind(plan_light_kind light) {
+    return light == PLAN_SMALL ? SKV_TABLE_SMALL : light == PLAN_LARGE ? SKV_TABLE_LARGE : SKV_TABLE_ACCURATE;
+}
+
 const plan_built *plan_build(plan_shop *shop, int air, const plan_config *config, skv_status *status) {
     plan_built **const at = &shop->built[air][config->bands - 3][config->species & 15u];
     *status = SKV_OK;
@@ -112,7 +116,7 @@ const plan_built *plan_build(plan_shop *shop, int air, const plan_config *config
         }
         *at = made;
     }
-    const skv_table_kind kind = config->light == PLAN_SMALL ? SKV_TABLE_SMALL : SKV_TABLE_ACCURATE;
+    const skv_table_kind kind = plan_table_kind(config->light);
     if (config->light != PLAN_SINGLE && !(*at)->table[kind])
         *status = build_table(*at, kind, 0.001 * shop->scene->ground_m);
     return *status == SKV_OK ? *at : NULL;
@@ -136,8 +140,7 @@ skv_status plan_begin(const plan_built *built, const plan_config *config, const 
         status = skv_frame_begin(frame, &built->model, &quality, (float)at->height_km, (float)(0.001 * scene->ground_m),
                                  &sun, 1);
     if (status == SKV_OK && config->light != PLAN_SINGLE)
-        status =
-            skv_frame_table(frame, built->table[config->light == PLAN_SMALL ? SKV_TABLE_SMALL : SKV_TABLE_ACCURATE]);
+        status = skv_frame_table(frame, built->table[plan_table_kind(config->light)]);
     if (status != SKV_OK || config->light == PLAN_SINGLE || !config->grid || !grid)
         return status;
     // High up a grid is refused: rays are integrated there.

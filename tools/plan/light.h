@@ -5,7 +5,9 @@
 #include "tools/plan/sample.h"
 #include "tools/trade/metric.h"
 
-typedef enum plan_light_kind { PLAN_SINGLE = 0, PLAN_SMALL = 1, PLAN_ACCURATE = 2 } plan_light_kind;
+typedef enum plan_light_kind { PLAN_SINGLE = 0, PLAN_SMALL = 1, PLAN_ACCURATE = 2, PLAN_LARGE = 3 } plan_light_kind;
+/// The kind of table; not for PLAN_SINGLE.
+skv_table_kind plan_table_kind(plan_light_kind light);
 
 /// What can be chosen.
 typedef struct plan_config {
@@ -43,7 +45,7 @@ void plan_trim(skv_atmosphere *air, unsigned species);
 typedef struct plan_built {
     skv_atmosphere air;
     skv_model model;
-    skv_table *table[2]; ///< by skv_table_kind; NULL: not yet
+    skv_table *table[SKV_TABLE_KINDS]; ///< by skv_table_kind; NULL: not yet
 } plan_built;
 
 /// @return NULL where memory ran out or the library refuses (status).

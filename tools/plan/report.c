@@ -5,7 +5,7 @@
 
 #include "tools/plan/cost.h"
 
-static const char *const light_names[] = {"light scattered once", "small table", "accurate table"};
+static const char *const light_names[] = {"light scattered once", "small table", "accurate table", "large table"};
 static const struct {
     unsigned bit;
     const char *name, *macro;
@@ -150,7 +150,9 @@ static void run_time(FILE *out, const plan_config *c, const plan_cost *k) {
     define(out, "SKV_PLAN_SAMPLES", c->samples);
     fprintf(out, "#define SKV_PLAN_TERMS %uu /* SKV_WITH_*: rayleigh 1, aerosol 2, dust 4, ozone 8, ground 16 */\n",
             c->species | (c->ground ? (unsigned)SKV_WITH_GROUND : 0u));
-    fprintf(out, "#define SKV_PLAN_TABLE %d /* 0: none; 1: SKV_TABLE_SMALL; 2: SKV_TABLE_ACCURATE */\n", (int)c->light);
+    fprintf(out,
+            "#define SKV_PLAN_TABLE %d /* 0: none; 1: SKV_TABLE_SMALL; 2: SKV_TABLE_ACCURATE; 3: SKV_TABLE_LARGE */\n",
+            (int)c->light);
     define(out, "SKV_PLAN_GRID", c->grid);
     fprintf(out, "#define SKV_PLAN_TABLE_BYTES %ld\n#define SKV_PLAN_WORK_BYTES %ld\n#define SKV_PLAN_GRID_BYTES %ld\n",
             k->table, k->work > 0 ? k->work - (long)sizeof(skv_table_builder) : 0, k->grid_bytes);

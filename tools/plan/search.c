@@ -37,7 +37,7 @@ bool plan_toggle(const plan_scene *scene, const plan_config *from, plan_term ter
         return true;
     case PLAN_TERM_FINE_TABLE:
         *dropped = from->light == PLAN_SMALL;
-        to->light = *dropped ? PLAN_ACCURATE : PLAN_SMALL;
+        to->light = from->light == PLAN_ACCURATE ? PLAN_SMALL : PLAN_ACCURATE;
         return from->light != PLAN_SINGLE;
     case PLAN_TERM_AEROSOL:
     case PLAN_TERM_DUST:
@@ -76,8 +76,9 @@ static skv_status price(search *s, plan_candidate *c) {
 }
 
 /// Which terms can be left out by themselves: what breaks the bound alone is not tried with others.
-static skv_status find_droppable(search *s, bool droppable[PLAN_TERMS]) {
+static skv_status find_droppable(search *s, plan_light_kind light, bool droppable[PLAN_TERMS]) {
     plan_config best = plan_best(s->scene);
+    best.light = light;
     best.samples = 8;
     for (plan_term t = 0; t < PLAN_TERM_SAMPLE; t++) {
         plan_candidate c = {0};
@@ -133,9 +134,11 @@ static skv_status add_family(search *s, plan_config config) {
 }
 
 /// Every choice of what can be left out.
-static skv_status add_all(search *s, const bool droppable[PLAN_TERMS]) {
+static skv_status add_all(search *s, plan_light_kind light, const bool droppable[PLAN_TERMS]) {
+    s->count = 0;
     for (unsigned drop = 0; drop < 1u << PLAN_TERM_SAMPLE; drop++) {
         plan_config c = plan_best(s->scene);
+        c.light = light;
         bool possible = true, dropped;
         for (plan_term t = 0; t < PLAN_TERM_SAMPLE && possible; t++)
             if ((drop >> t & 1u) != 0) {
@@ -192,17 +195,24 @@ static skv_status choose(search *s, plan_answer *a) {
     return s->count > 0 ? SKV_OK : SKV_ERR_UNSUPPORTED;
 }
 
-static skv_status run(search *s, plan_answer *answer) {
+/// What fits with tables up to a kind.
+static skv_status search_up_to(search *s, plan_light_kind light, plan_answer *answer) {
     bool droppable[PLAN_TERMS];
     progress_begin("plan: tables", PLAN_TERM_SAMPLE);
-    skv_status status = plan_judge_make(&s->judge, s->shop, &s->samples);
-    if (status == SKV_OK)
-        status = find_droppable(s, droppable);
+    skv_status status = find_droppable(s, light, droppable);
     progress_end();
     if (status == SKV_OK)
-        status = add_all(s, droppable);
+        status = add_all(s, light, droppable);
+    return status == SKV_OK ? choose(s, answer) : status;
+}
+
+/// The large table only where the others do not do: it costs as much a vertex, but bytes and time to build.
+static skv_status run(search *s, plan_answer *answer) {
+    skv_status status = plan_judge_make(&s->judge, s->shop, &s->samples);
     if (status == SKV_OK)
-        status = choose(s, answer);
+        status = search_up_to(s, PLAN_ACCURATE, answer);
+    if (status == SKV_OK && answer->verdict == PLAN_ERROR_TOO_LARGE)
+        status = search_up_to(s, PLAN_LARGE, answer);
     if (status == SKV_OK && answer->verdict != PLAN_ERROR_TOO_LARGE)
         status = explain(s, answer);
     answer->distance = s->judge.distance;
