@@ -5,18 +5,20 @@ set -eu
 cd "$(dirname "$0")/../.."
 B=${B:-build}
 mkdir -p "$B/reference-data"
-for name in "${@:-br16 br17o mars thin thick}"; do for air in $name; do
+for name in "${@:-br16 br17o mars thin thick coarse}"; do for air in $name; do
+    target=0.3%
     case $air in
     br16) ini=tools/bench/br16.ini radius=6360 top=60 seed=16 ;;
     br17o) ini=tools/bench/br17o.ini radius=6360 top=60 seed=17 ;;
     mars) ini=tools/reference/data/mars.ini radius=3389.5 top=100 seed=4 ;;
     thin) ini=tools/reference/data/thin.ini radius=6360 top=60 seed=2 ;;
     thick) ini=tools/reference/data/thick.ini radius=6360 top=60 seed=5 ;;
-    *) echo "data.sh: $air: br16, br17o, mars, thin or thick" >&2; exit 2 ;;
+    coarse) ini=tools/reference/data/coarse.ini radius=3389.5 top=100 seed=6 target=1% ;;
+    *) echo "data.sh: $air: br16, br17o, mars, thin, thick or coarse" >&2; exit 2 ;;
     esac
     work=$B/reference-data/$air
     awk -v seed=$seed -v radius=$radius -v top=$top -f tools/reference/data.awk </dev/null >"$work.queries"
-    options="--orders all --ground lit --target-error 0.3% --max-paths 8000000 --seed 1"
+    options="--orders all --ground lit --target-error $target --max-paths 8000000 --seed 1"
     "$B/skyvert-reference" $options --state "$work.state" --atmosphere $ini <"$work.queries" >"$work.answers"
     {
         echo "# Radiance of all orders of scattering and its standard errors, 1/sr: 30 rays with the sun at 0-75 deg from the zenith,"
