@@ -9,9 +9,9 @@
 #define SKYVERT_SKYVERT_H
 
 #define SKV_VERSION_MAJOR 0
-#define SKV_VERSION_MINOR 2
+#define SKV_VERSION_MINOR 3
 #define SKV_VERSION_PATCH 0
-#define SKV_VERSION       "0.2.0"
+#define SKV_VERSION       "0.3.0"
 
 #include "skyvert/config.h"
 #include "skyvert/status.h"
@@ -27,6 +27,7 @@
 #include "skyvert/stars.h"
 #include "skyvert/night.h"
 #include "skyvert/water.h"
+#include "skyvert/work.h"
 #include "skyvert/dome.h"
 #include "skyvert/display.h"
 
