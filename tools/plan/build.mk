@@ -23,7 +23,7 @@ $(B)/plan-floor: $(B)/tools/plan/floor.o $(B)/tools/plan/light.o $(B)/tools/plan
 PLAN_DATA   := tools/reference/data
 PLAN_TRUTHS := tools/bench/br16.ini $(PLAN_DATA)/br16.csv tools/bench/br17o.ini $(PLAN_DATA)/br17o.csv \
                $(PLAN_DATA)/thin.ini $(PLAN_DATA)/thin.csv $(PLAN_DATA)/thick.ini $(PLAN_DATA)/thick.csv \
-               $(PLAN_DATA)/mars.ini $(PLAN_DATA)/mars.csv
+               $(PLAN_DATA)/mars.ini $(PLAN_DATA)/mars.csv $(PLAN_DATA)/coarse.ini $(PLAN_DATA)/coarse.csv
 .PHONY: plan-truth plan-floor plan-costs
 plan-costs: ## count instructions for the planner again (tools/plan/costs_data.h); minutes
 	@B=$(B) MAKE="$(MAKE)" $(BASH) tools/plan/costs.sh
