@@ -32,7 +32,7 @@ def read_for(fd, seconds):
                 data += os.read(fd, 65536)
             except OSError:
                 break
-    return data.decode().replace("\r\r\n", "\r\n")  # the terminal adds one
+    return data.decode(errors="ignore").replace("\r\r\n", "\r\n")  # the terminal adds one
 
 
 def plain(text):
