@@ -20,7 +20,7 @@ static const char *kind_of(const trade_config *c) {
 /// A number, or nothing where it is negative: not measured.
 static void number(FILE *out, double value) {
     if (value >= 0)
-        fprintf(out, ",%.6g", value);
+        fprintf(out, ",%.12g", value);
     else
         fputc(',', out);
 }
@@ -78,7 +78,7 @@ static void frontier_lines(FILE *out, const trade *t, int light, int sun, int he
                 t->rows.at[i].sees_ground);
         number(out, p.ns);
         number(out, p.instructions);
-        fprintf(out, ",%s,%.9g,%.9g,%.9g,%d\n", t->counted ? "instructions" : "ns", 100 * p.mean, 100 * p.p95,
+        fprintf(out, ",%s,%.12g,%.12g,%.12g,%d\n", t->counted ? "instructions" : "ns", 100 * p.mean, 100 * p.p95,
                 100 * p.max, on_frontier[i]);
     }
 }
