@@ -94,6 +94,11 @@ typedef struct skv_frame_diffuse {
     int32_t kept;                        ///< the species whose aureole the table keeps
     float inv_span;                      ///< of the table's rows, 1/km
     float offset_km;                     ///< the frame's ground above the table's
+    float column_first, column_scale;    ///< of the table's columns (src/core/cells.h)
+    float grid_horizon;                  ///< cosine of the zenith angle of the geometric horizon
+    float grid_up, grid_down;            ///< 1/range of that cosine above and below it
+    float grid_flat[SKV_LIGHTS_MAX][2];  ///< unit vector towards a light's azimuth
+    float grid_left[SKV_LIGHTS_MAX][2];  ///< that vector turned left by a right angle
     float moment[SKV_SCATTERERS][4];     ///< of the scatterers' phase functions, degrees 1 to 4
     float aureole[SKV_SCATTERERS];       ///< g of light that they scatter out of the aureole
     float toward_enu[SKV_LIGHTS_MAX][3]; ///< centre of the aureole

@@ -1,10 +1,11 @@
 /// Skyvert: an embedded sky model for flight simulators. Umbrella header, in the order of the data flow.
 ///
-///     skv_atmosphere --skv_model_build()--> skv_model      once per change
-///     skv_model --skv_table_build()--> skv_table           once per change, for all orders of scattering
-///     skv_model, observer, lights --skv_frame_begin()--> skv_frame, with its table --skv_frame_table()   once per
-///     frame skv_frame, directions --skv_radiance()--> radiance   per vertex radiance --skv_colour()--> linear RGB,
-///     luminance     per vertex
+///     once per change    skv_atmosphere --skv_model_build()--> skv_model
+///                        skv_model --skv_table_build()--> skv_table, for all orders of scattering
+///     once per frame     skv_model, observer, lights --skv_frame_begin()--> skv_frame
+///                        skv_frame, skv_table --skv_frame_table()--> skv_frame
+///     per vertex         skv_frame, directions --skv_radiance()--> radiance
+///                        radiance --skv_colour()--> linear RGB, luminance
 #ifndef SKYVERT_SKYVERT_H
 #define SKYVERT_SKYVERT_H
 

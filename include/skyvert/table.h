@@ -36,7 +36,7 @@ typedef enum skv_table_format {
 } skv_table_format;
 
 typedef enum skv_table_kind {
-    SKV_TABLE_ACCURATE = 0, ///< the sizes and errors of both stand in README "Tables"
+    SKV_TABLE_ACCURATE = 0, ///< the sizes and errors of all stand in README "Tables"
     SKV_TABLE_SMALL = 1,
     SKV_TABLE_LARGE = 2, ///< twice the bytes, five times the build: half the error by day and in thick haze
     SKV_TABLE_KINDS = 3

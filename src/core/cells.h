@@ -25,9 +25,9 @@ SKV_INLINE float skv_cells_warp(float mu_s) {
 }
 
 /// Column coordinate of mu_s, [0, suns - 1]; below the first column's the first one counts.
-SKV_INLINE float skv_cells_column(const skv_table *t, float mu_s) {
-    const float first = skv_cells_warp(t->mu_first), last = skv_cells_warp(1.0f), most = (float)(t->suns - 1);
-    return skv_clampf((skv_cells_warp(mu_s) - first) * (most / (last - first)), 0.0f, most);
+SKV_INLINE float skv_cells_column(const skv_frame_diffuse *d, float mu_s) {
+    const float most = (float)(d->table->suns - 1);
+    return skv_clampf((skv_cells_warp(mu_s) - d->column_first) * d->column_scale, 0.0f, most);
 }
 
 /// mu_s of a column: the inverse.
@@ -186,9 +186,8 @@ SKV_INLINE float skv_cells_log2(const skv_table *t, float mean) {
     return t->format == SKV_TABLE_FLOAT ? mean : mean * (1.0f / SKV_CELLS_STEPS) + SKV_CELLS_FLOOR;
 }
 
-/// log2 of the diffuse irradiance of the ground per unit of the light's, at mu_s.
-SKV_INLINE float skv_ground_log2(const skv_table *t, float mu_s, int b) {
-    const float y = skv_cells_column(t, mu_s);
+/// log2 of the diffuse irradiance of the ground per unit of the light's, at a column coordinate.
+SKV_INLINE float skv_ground_log2(const skv_table *t, float y, int b) {
     int i = (int)y;
     i = i > t->suns - 2 ? t->suns - 2 : i;
     const float w = y - (float)i;

@@ -159,7 +159,7 @@ static SKV_NOINLINE void skv_diffuse_slice(const skv_frame *frame, const skv_leg
             q.mu.v[l] = dir * m;
             q.q.v[l] = dir * (leg->nu.v[l] - m * ms);
             q.x.v[l] = skv_cells_row(t, skv_clampf((p.h_km.v[l] + offset) * inv_span, 0.0f, 1.0f));
-            q.y.v[l] = skv_cells_column(t, ms);
+            q.y.v[l] = skv_cells_column(&frame->diffuse, ms);
         }
         skv_columns_up(frame, has, &p, &mu_leg, &sin_view, &c);
         SKV_EACH_SPECIES(s)

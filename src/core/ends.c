@@ -67,11 +67,13 @@ static SKV_NOINLINE void skv_ground_lit(const skv_frame *frame, unsigned has, in
         for (size_t b = 0; b < bands && !frame->diffuse.only; b++)
             out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] * (rms.v[l] / radius) *
                       skv_exp2f(-skv_optical_depth_log2e(frame, has, &c, (int)b, l));
-        if (SKV_TERM_DIFFUSE && frame->diffuse.table)
+        if (SKV_TERM_DIFFUSE && frame->diffuse.table) {
+            const float column = skv_cells_column(&frame->diffuse, mu_s.v[l]);
             for (size_t b = 0; b < bands; b++)
                 out[b] += model->albedo[b] * 0.318309886f * frame->light[light].irradiance[b] *
-                          skv_exp2f(skv_ground_log2(frame->diffuse.table, mu_s.v[l], (int)b) -
+                          skv_exp2f(skv_ground_log2(frame->diffuse.table, column, (int)b) -
                                     skv_optical_depth_log2e(frame, has, view, (int)b, l));
+        }
     }
 }
 #endif

@@ -36,6 +36,8 @@ skv_status skv_frame_table(skv_frame *frame, const skv_table *table) {
     d->only = 0;
     d->inv_span = 1.0f / table->span_km;
     d->offset_km = frame->ground_km - table->ground_km;
+    d->column_first = skv_cells_warp(table->mu_first);
+    d->column_scale = (float)(table->suns - 1) / (skv_cells_warp(1.0f) - d->column_first);
     for (int32_t i = 0; i < frame->lights; i++) {
         const float *const s = frame->light[i].direction_enu, least = SKV_AUREOLE_LOWEST;
         const float flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]);

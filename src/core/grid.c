@@ -24,10 +24,20 @@ SKV_INLINE float skv_grid_amount(float tau) {
     return t / (1.0f + t);
 }
 
-/// Cosine of the zenith angle of the geometric horizon.
-SKV_INLINE float skv_grid_horizon(const skv_frame *frame) {
+/// What of the grid's axes is the same for all rays.
+static void skv_grid_axes(skv_frame *frame) {
+    skv_frame_diffuse *const d = &frame->diffuse;
     const float h = frame->height_km, r = frame->radius_km + h;
-    return -skv_sqrtf(h * (frame->radius_km + r)) / r;
+    d->grid_horizon = -skv_sqrtf(h * (frame->radius_km + r)) / r;
+    d->grid_up = 1.0f / (1.0f - d->grid_horizon);
+    d->grid_down = 1.0f / (1.0f + d->grid_horizon);
+    for (int32_t i = 0; i < frame->lights; i++) {
+        const float *const s = frame->light[i].direction_enu, flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]);
+        d->grid_flat[i][0] = flat > 1e-6f ? s[0] / flat : 1.0f;
+        d->grid_flat[i][1] = flat > 1e-6f ? s[1] / flat : 0.0f;
+        d->grid_left[i][0] = -d->grid_flat[i][1];
+        d->grid_left[i][1] = d->grid_flat[i][0];
+    }
 }
 
 /// Optical depth of the air along whole rays, per band, times log2(e): to the ground, or past the top as the closed
@@ -80,11 +90,9 @@ typedef struct skv_grid_place {
 } skv_grid_place;
 
 SKV_INLINE void skv_grid_find(const skv_frame *frame, int light, const skv_block *block, skv_grid_place *p) {
-    const float horizon = skv_grid_horizon(frame);
-    const float *const s = frame->light[light].direction_enu;
-    const float flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]), inv_flat = flat > 1e-6f ? 1.0f / flat : 0.0f;
-    const float lx = flat > 1e-6f ? s[0] * inv_flat : 1.0f, ly = flat > 1e-6f ? s[1] * inv_flat : 0.0f;
-    const float inv_up = 1.0f / (1.0f - horizon), inv_down = 1.0f / (1.0f + horizon);
+    const float horizon = frame->diffuse.grid_horizon;
+    const float inv_up = frame->diffuse.grid_up, inv_down = frame->diffuse.grid_down;
+    const float lx = frame->diffuse.grid_flat[light][0], ly = frame->diffuse.grid_flat[light][1];
     SKV_EACH_LANE(l) {
         const float x = block->view[0].v[l], y = block->view[1].v[l], mu = block->view[2].v[l];
         const float inv = 1.0f / skv_root(skv_maxf(x * x + y * y, 1e-24f));
@@ -159,10 +167,8 @@ size_t skv_grid_size(const skv_frame *frame) {
 
 /// Direction of a point of the grid about a light; the two rows at the horizon lie a trace above and below it.
 static void skv_grid_direction(const skv_frame *frame, int light, int row, int azimuth, float v[3]) {
-    const float horizon = skv_grid_horizon(frame);
-    const float *const s = frame->light[light].direction_enu;
-    const float flat = skv_sqrtf(s[0] * s[0] + s[1] * s[1]);
-    const float lx = flat > 1e-6f ? s[0] / flat : 1.0f, ly = flat > 1e-6f ? s[1] / flat : 0.0f;
+    const float horizon = frame->diffuse.grid_horizon;
+    const float *const flat = frame->diffuse.grid_flat[light], *const left = frame->diffuse.grid_left[light];
     const int up = row < SKV_GRID_UP, i = up ? row : row - SKV_GRID_UP;
     const float t = (float)i / (float)((up ? SKV_GRID_UP : SKV_GRID_DOWN) - 1);
     const float range = up ? 1.0f - horizon : -1.0f - horizon;
@@ -170,8 +176,9 @@ static void skv_grid_direction(const skv_frame *frame, int light, int row, int a
     const float sin_theta = skv_sqrtf(skv_maxf((1.0f - mu) * (1.0f + mu), 0.0f));
     const float half = (float)azimuth / (float)(SKV_GRID_AZIMUTHS - 1);
     const float c = 1.0f - 2.0f * half * half, d = 2.0f * half * skv_sqrtf((1.0f - half) * (1.0f + half));
-    v[0] = sin_theta * (c * lx - d * ly);
-    v[1] = sin_theta * (c * ly + d * lx);
+    // Sums only: of a difference beside a sum gcc 12 makes a vfmaddsub, contraction off or not.
+    v[0] = sin_theta * (c * flat[0] + d * left[0]);
+    v[1] = sin_theta * (c * flat[1] + d * left[1]);
     v[2] = mu;
 }
 
@@ -206,6 +213,7 @@ skv_status skv_frame_grid(skv_frame *frame, float *grid, size_t n) {
     if (n < skv_grid_size(frame) || (uintptr_t)grid % sizeof(float) != 0)
         return SKV_ERR_SIZE;
     frame->diffuse.grid = NULL;
+    skv_grid_axes(frame);
     const int row_floats = SKV_GRID_AZIMUTHS * skv_bands(frame->model);
     for (int light = 0; light < frame->lights; light++)
         for (int row = 0; row < SKV_GRID_ROWS; row += SKV_GRID_AT_ONCE)

@@ -45,7 +45,7 @@ static SKV_NOINLINE void skv_irradiance_read(const skv_frame *frame, int light, 
     float ratio[SKV_CELLS_RATIOS];
     SKV_EACH_LANE(l) {
         x.v[l] = skv_cells_row(t, h);
-        y.v[l] = skv_cells_column(t, mu_s);
+        y.v[l] = skv_cells_column(&frame->diffuse, mu_s);
     }
     square.at = -1;
     skv_cells_find(t, bands, &x, &y, &place);

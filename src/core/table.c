@@ -116,7 +116,7 @@ skv_status skv_table_spec_for(skv_table_spec *spec, const skv_model *model, skv_
         s.altitudes = s.altitudes * 4 / 5;
         s.detailed = s.altitudes;
     }
-    // A peak of some degrees falls between fewer azimuths: half the light away from it was lost on Mars.
+    // A peak of some degrees falls between fewer azimuths.
     if (model->g[skv_kept_species(model)] > 0.85f)
         s.azimuths[0] = s.azimuths[1] = 16;
     s.samples[1] = skv_diffuse_nodes(model);

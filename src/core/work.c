@@ -153,7 +153,7 @@ static void skv_work_nodes(const skv_frame *frame, const skv_legs *leg, skv_work
             const float e = skv_maxf(e0.v[l] + s * (2.0f * rm.v[l] + s), 0.0f), r = skv_sqrtf(radius * radius + e);
             const float h = skv_minf(e / (radius + r), frame->top_km) + frame->diffuse.offset_km;
             x.v[l] = skv_cells_row(t, skv_clampf(h * frame->diffuse.inv_span, 0.0f, 1.0f));
-            y.v[l] = skv_cells_column(t, skv_clampf((rms.v[l] + s * leg->nu.v[l]) / r, -1.0f, 1.0f));
+            y.v[l] = skv_cells_column(&frame->diffuse, skv_clampf((rms.v[l] + s * leg->nu.v[l]) / r, -1.0f, 1.0f));
         }
         skv_work_places(t, bands, &x, &y, work);
     }
