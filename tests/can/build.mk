@@ -7,7 +7,7 @@ $(CAN_TESTS): $(B)/tests/can/%: tests/can/%.c tests/check.h $(SKV_CAS_OBJ) $(SKV
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -I. -Itests $< $(filter %.o,$^) -lcmocka -o $@
 
-CAN_PROGRAMS := $(addprefix $(B)/tests/can/,dbc random_log speed)
+CAN_PROGRAMS := $(addprefix $(B)/tests/can/,dbc random_log random_frames speed)
 $(CAN_PROGRAMS): $(B)/tests/can/%: tests/can/%.c $(SKV_CAS_OBJ)
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -I. $^ -o $@

@@ -1,14 +1,9 @@
-"""board.py FOLDER SECONDS KERNEL INITRD: boots the board under QEMU, plays what its tests ask for, and judges them.
-
-FOLDER gets console.log and out/TEST/ (what each test wrote). Exit status 0: every test passed; 77: some could not run and
-none failed; 1: one failed, did not end within SECONDS, or the board died. Lines `note:` and `figure:` of the tests are shown.
-"""
+"""One arm64 board under QEMU: boots, plays what its tests ask for, and judges them."""
 import os
 import pathlib
-import signal
 import socket
 import subprocess
-import sys
+import threading
 import time
 
 from hooks import Hooks
@@ -43,8 +38,26 @@ def connect(path, process, until):
     raise TimeoutError("QEMU does not answer")
 
 
+speaking = threading.Lock()
+
+
+def say(text):
+    """Lines that belong together, in one piece: boards work side by side."""
+    with speaking:
+        print(text, flush=True)
+
+
+def tail(path, lines, before="    "):
+    """The last lines of a file, indented, as far as there are any."""
+    text = path.read_text(errors="replace").splitlines()[-lines:] if path.is_file() else []
+    return "".join(f"\n{before}{line}" for line in text)
+
+
 class Board:
-    def __init__(self, folder, seconds, kernel, initrd):
+    """FOLDER gets console.log and out/TEST/ (what each test wrote)."""
+
+    def __init__(self, folder, seconds, kernel, initrd, tests):
+        (folder / "out").mkdir(parents=True)
         self.folder, self.until = folder, time.monotonic() + seconds
         self.start = time.monotonic()
         self.failed, self.skipped, self.passed, self.running = [], [], [], None
@@ -53,7 +66,7 @@ class Board:
             pathlib.Path(name).unlink(missing_ok=True)
         address = device_tree(folder / "board.dtb")
         command = ["qemu-system-aarch64", "-M", "virt"] + MACHINE + [
-            "-dtb", folder / "board.dtb", "-kernel", kernel, "-initrd", initrd, "-append", "console=ttyAMA0 quiet panic=-1 rdinit=/init",
+            "-dtb", folder / "board.dtb", "-kernel", kernel, "-initrd", initrd, "-append", f"console=ttyAMA0 quiet panic=-1 rdinit=/init rig.tests={','.join(tests)}",
             "-serial", f"file:{folder}/console.log",
             "-qtest", f"unix:{sockets['qtest']},server=on,wait=off", "-qtest-log", "/dev/null",
             "-qmp", f"unix:{sockets['monitor']},server=on,wait=off",
@@ -90,15 +103,15 @@ class Board:
 
     def verdict(self, name, status):
         took = time.monotonic() - self.test_start
-        log = (self.folder / "out" / name / "log").read_text(errors="replace").splitlines()
+        path = self.folder / "out" / name / "log"
+        log = path.read_text(errors="replace").splitlines()
         word = {"0": "ok", "77": "SKIPPED"}.get(status, "FAILED")
         {"ok": self.passed, "SKIPPED": self.skipped}.get(word, self.failed).append(name)
-        print(f"{word:8}{name:32}{took:6.1f} s" + ("" if word == "ok" else ": " + (log[-1] if log else "no output")))
-        for text in log:
-            if text.startswith(("note:", "figure:")):
-                print(text)
-        if word == "FAILED":
-            print("".join(f"    {text}\n" for text in log[-40:]), end="", flush=True)
+        text = f"{word:8}{name:32}{took:6.1f} s" + ("" if word == "ok" else ": " + (log[-1] if log else "no output"))
+        for line in log:
+            if line.startswith(("note:", "figure:")):
+                text += "\n" + line
+        say(text + (tail(path, 40) if word == "FAILED" else ""))
 
     def follow(self):
         for text in self.lines():
@@ -111,10 +124,10 @@ class Board:
                 self.verdict(*rest.rsplit(" ", 1))
                 self.running = None
             elif verb == "boot":
-                print(f"figure: board: first test {time.monotonic() - self.start:.1f} s after power on")
+                say(f"figure: {self.folder.name}: first test {time.monotonic() - self.start:.1f} s after power on")
             elif verb == "end":
                 self.process.wait(max(1.0, self.until - time.monotonic()))
-                print(f"figure: board: power on to power off {time.monotonic() - self.start:.1f} s")
+                say(f"figure: {self.folder.name}: power on to power off {time.monotonic() - self.start:.1f} s")
                 return
         raise RuntimeError(f"the board died: {self.running or 'boot'} was running")
 
@@ -123,45 +136,13 @@ class Board:
             self.process.kill()
             self.process.wait()
 
-
-def show_console(folder):
-    for text in (folder / "console.log").read_text(errors="replace").splitlines()[-25:]:
-        print("    console: " + text)
-
-
-def show(board, folder, problem):
-    """What is known of a board that gave no verdict."""
-    print(f"FAILED  {problem}")
-    if board.running:
-        log = folder / "out" / board.running / "log"
-        if log.is_file():
-            print("".join(f"    {text}\n" for text in log.read_text(errors="replace").splitlines()[-40:]), end="")
-    for text in (folder / "console.log").read_text(errors="replace").splitlines()[-25:]:
-        print("    console: " + text)
-
-
-def main():
-    folder = pathlib.Path(sys.argv[1])
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
-    try:
-        board = Board(folder, float(sys.argv[2]), sys.argv[3], sys.argv[4])
-    except (OSError, RuntimeError, subprocess.SubprocessError) as problem:
-        print(f"FAILED  no board: {problem}")
-        return 1
-    try:
-        board.follow()
-    except (OSError, RuntimeError, subprocess.SubprocessError) as problem:
-        board.failed.append(board.running or "boot")
-        show(board, folder, problem)
-    except KeyboardInterrupt:
-        return 130
-    finally:
-        board.close()
-    print(f"board: {len(board.passed)} passed, {len(board.failed)} failed, {len(board.skipped)} skipped")
-    if board.failed:
-        print(f"logs: {folder}/console.log {folder}/out/*/log")
-        return 1
-    return 77 if board.skipped else 0
-
-
-sys.exit(main())
+    def run(self):
+        """To the end of the last test; whatever ends the board before is a failure of the test that was running."""
+        try:
+            self.follow()
+        except (OSError, RuntimeError, subprocess.SubprocessError) as problem:
+            self.failed.append(self.running or "boot")
+            log = self.folder / "out" / (self.running or "boot") / "log"
+            say(f"FAILED  {problem}" + tail(log, 40) + tail(self.folder / "console.log", 25, "    console: "))
+        finally:
+            self.close()

@@ -66,4 +66,4 @@ rig: deps-test ## the programs on an arm64 board with CAN and GPIO, under QEMU (
 	@B=$(B) $(BASH) tests/rig/run.sh $(RIG_TESTS)
 rig-long: deps-test ## the long tests of the board (guest/long_*)
 	@$(MAKE) --no-print-directory DEPS=no rig-build
-	@B=$(B) RIG_SECONDS=1800 $(BASH) tests/rig/run.sh $(wildcard tests/rig/guest/long_*.sh)
+	@B=$(B) RIG_NAME=long RIG_SECONDS=1800 $(BASH) tests/rig/run.sh $(wildcard tests/rig/guest/long_*.sh)

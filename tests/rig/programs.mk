@@ -4,6 +4,7 @@ $(eval $(call RIG_PROGRAM,panel,tests/gpio/panel.c $(RIG_GPIO),-lgpiod))
 $(eval $(call RIG_SANITIZED,panel,tests/gpio/panel.c $(RIG_GPIO),-lgpiod))
 # The CAN port against the board's kernel.
 $(eval $(call RIG_PROGRAM,socket_check,tests/can/socket_check.c $(SKV_CAN_SRC) $(SKV_CAS_SRC),))
+$(eval $(call RIG_PROGRAM,random-frames,tests/can/random_frames.c $(SKV_CAS_SRC),))
 $(eval $(call RIG_PROGRAM,slcan-adapter,tests/rig/slcan_adapter.c,))
 
 # panel2: as panel, with libgpiod 2.

@@ -3,7 +3,7 @@
 set -eu
 B=${B:-build}
 out=$B/rig/refuses.log
-export RIG_GUEST=tests/rig/bad RIG_NAME=refuses
+export RIG_GUEST=tests/rig/bad RIG_NAME=refuses RIG_BOARDS=1
 refused() {
     local want=$1
     shift
@@ -12,6 +12,6 @@ refused() {
     [ $status -eq 1 ] || { cat "$out"; echo "$*: exit status $status, want 1"; exit 1; }
     grep -q "$want" "$out" || { cat "$out"; echo "$*: no line '$want'"; exit 1; }
 }
-refused "^board: 1 passed, 3 failed, 0 skipped" fails subshell hangs passes
+refused "^rig: 1 passed, 3 failed, 0 skipped" fails subshell hangs passes
 refused "the board died: dies was running" dies
 RIG_SECONDS=3 refused "no end within the time: boot was running" passes

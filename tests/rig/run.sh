@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# run.sh [TEST...]: boots the arm64 board under QEMU (two CAN controllers on one bus, a GPIO chip), runs these tests on it, one
-# after another, and prints a verdict for each. Without names: all of guest/ but long_*. RIG_SECONDS: the time allowed for all of it.
+# run.sh [TEST...]: boots arm64 boards under QEMU (each with two CAN controllers on one bus and a GPIO chip), runs these tests on
+# them, and prints a verdict for each. Without names: all of guest/ but long_*. RIG_SECONDS: the time allowed for all of it;
+# RIG_BOARDS: how many side by side (2).
 #
 # To add a test: write guest/NAME.sh (busybox sh; lib.sh has fail, host, wait_for, can_up, ...; hooks.py what `host` can do:
-# turn an encoder, await a lamp). Exit 0 passes, 77 skips with a last line that says why. A program for it is one line in a
+# turn an encoder, await a lamp); a line `# takes: N` says how many seconds it takes. Exit 0 passes, 77 skips with a last line that says why. A program for it is one line in a
 # programs.mk: $(eval $(call RIG_PROGRAM,NAME,SOURCES,LIBS)) gives /bin/NAME on the board, RIG_SANITIZED /bin/NAME-san.
-# By hand: make rig RIG_TESTS=NAME; what it wrote is in build/rig/board/out/NAME/.
+# By hand: make rig RIG_TESTS=NAME; what it wrote is in build/rig/all/board*/out/NAME/.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 guest=${RIG_GUEST:-$here/guest}
 B=${B:-build}
-name=${RIG_NAME:-board}
+name=${RIG_NAME:-all}
 rig=$B/rig
 job=$rig/$name
 if [ $# -eq 0 ]; then
@@ -20,7 +21,7 @@ if [ $# -eq 0 ]; then
 fi
 [ -d "$rig/guest/bin" ] || { echo "run.sh: no $rig/guest/bin: make rig-build" >&2; exit 2; }
 rm -rf "$job"
-mkdir -p "$job/root" "$job/out"
+mkdir -p "$job/root"
 root=$job/root
 mkdir -p "$root"/{bin,lib,modules,rig,tests}
 sys=$rig/sysroot
@@ -54,11 +55,14 @@ for module in 9pnet 9pnet_virtio netfs fscache 9p virtio_pci_modern_dev virtio_p
     echo "$module" >>"$root/modules/order"
 done
 cp "$guest"/*.sh "$root/tests/" # one may be made of another
+tests=()
 for test in "$@"; do
     test=$(basename "$test" .sh)
-    echo "$test" >>"$root/tests/order"
+    [ -e "$guest/$test.sh" ] || { echo "run.sh: no test $guest/$test.sh" >&2; exit 2; }
+    tests+=("$test")
 done
 # Not packed: unpacking under emulation costs more than it saves.
 (cd "$root" && find . -print0 | LC_ALL=C sort -z | cpio --quiet --null -o -H newc -R 0:0) >"$job/initrd"
 rm -rf "$root"
-exec python3 -B "$here/board.py" "$job" "${RIG_SECONDS:-500}" "$(ls "$sys"/boot/vmlinuz-* | tail -n 1)" "$job/initrd"
+kernel=$(ls "$sys"/boot/vmlinuz-* | tail -n 1)
+exec python3 -B "$here/rig.py" "$job" "${RIG_SECONDS:-500}" "${RIG_BOARDS:-2}" "$kernel" "$job/initrd" "$guest" "${tests[@]}"

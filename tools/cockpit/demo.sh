@@ -34,7 +34,7 @@ echo "This kernel has no vcan: the same programs on an arm64 board under QEMU (b
 mkdir -p "$B/rig/guest/files"
 cp "$flight" "$B/rig/guest/files/flight.csv"
 echo "$seconds" >"$B/rig/guest/files/seconds"
-log=$B/rig/demo/out/demo/log
+log=$B/rig/demo/board1/out/demo/log
 rm -f "$log"
 RIG_GUEST=$here/board RIG_NAME=demo RIG_SECONDS=$((seconds + 240)) B=$B bash "$root/tests/rig/run.sh" demo >"$B/rig/demo.log" 2>&1 &
 child=$!

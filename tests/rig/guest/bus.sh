@@ -1,3 +1,4 @@
+# takes: 8
 # The rig's own means: both controllers on one bus, an adapter that goes bus-off, error frames, a pulled cable.
 can_up
 candump -t a -n 2 can1 >got &

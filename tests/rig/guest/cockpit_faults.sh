@@ -1,6 +1,7 @@
-# seconds: 140
-# skyvert-cockpit with the sanitizers while the bus fails: cable pulled, bus-off of an adapter, an error frame, the interface removed,
-# a log by canplayer, random frames. None of it ends it, and each is shown.
+# seconds: 110
+# takes: 45
+# skyvert-cockpit with the sanitizers while the bus fails: cable pulled, bus-off of an adapter, an error frame, the interface removed, a
+# log by canplayer. None of it ends it, and each is shown.
 last() { tail -n 1 lines; }
 says() { last | grep -q "$1"; }
 stat() { awk -v w="$1" '$1 == w {print $2}' stats; }
@@ -37,21 +38,7 @@ player=$!
 wait_for 10 says "^live .* utc 2024-03-20T12:1.* lamps .0" || fail "canplayer: $(last)"
 stop $player
 
-# Random frames: any id and length, then the ids it hears.
-# shellcheck disable=SC2046
-cangen can0 -g 0 -I r -L r -D r -n 3000 -p 100 >/dev/null 2>&1 || fail "cangen: $?"
-for id in 40C 40D 14C 4B0 4B6 708 709 70D 70E 711 712 080; do
-    cangen can0 -g 0 -I $id -L r -D r -n 400 -p 100 >/dev/null 2>&1 || fail "cangen $id: $?"
-done
-usleep 1500000
-kill -0 $pid || fail "it ended: $(cat said)"
-vertices /sky >frame
-case $? in 0 | 2) ;; *) fail "the shared memory" ;; esac
-grep -i nan lines frame && fail "not a number"
-end "random frames"
-[ "$(stat received)" -gt 3000 ] || fail "random frames received: $(stat received)"
-figure "cockpit on the board: random frames: $(stat received) received, $(stat can_accepted) accepted, $(stat can_wrong_type) of a wrong type, $(stat can_wrong_length) of a wrong length, $(stat can_wrong_service) of a wrong service, $(stat frames_refused) skies refused"
-[ "$(stat frames_refused)" = 0 ] || fail "the core refused $(stat frames_refused) skies"
+end "canplayer"
 can_down
 
 # Bus-off: an adapter's controller. It says so until the interface is taken down and up.

@@ -1,4 +1,5 @@
 # seconds: 120
+# takes: 35
 # Switches and lamps of skyvert-cockpit: the knob turned, the button bounced, the toggle; the night lighting at
 # the right elevation of the sun; lines that are missing or busy.
 word() { awk -v w="$2" '{for (i = 1; i < NF; i++) if ($i == w) v = $(i + 1)} END {print v}' "$1"; }

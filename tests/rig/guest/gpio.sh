@@ -1,4 +1,5 @@
 # seconds: 120
+# takes: 25
 panel=${panel:-panel-san}
 # A panel with the sanitizers: encoder turned, button bounced, toggle, lamps; then lines that are busy, missing, out of range.
 mkfifo in
