@@ -24,10 +24,9 @@ SKV_INLINE float skv_cells_warp(float mu_s) {
     return u / (SKV_CELLS_KNEE + skv_fabsf(u)) + SKV_CELLS_SLOPE * u;
 }
 
-/// Column coordinate of mu_s, [0, suns - 1]; below the first column's the first one counts.
+/// Column coordinate of mu_s in [-1, 1]: [0, suns - 1] but for rounding; below the first column's the first one counts.
 SKV_INLINE float skv_cells_column(const skv_frame_diffuse *d, float mu_s) {
-    const float most = (float)(d->table->suns - 1);
-    return skv_clampf((skv_cells_warp(mu_s) - d->column_first) * d->column_scale, 0.0f, most);
+    return skv_maxf((skv_cells_warp(mu_s) - d->column_first) * d->column_scale, 0.0f);
 }
 
 /// mu_s of a column: the inverse.

@@ -2,10 +2,10 @@
 # Flash, stack, table bytes and instructions per vertex. Limits (DESIGN, README "Sizes"): the stack of skv_radiance() is at
 # most 2 KiB on Cortex-M and 6 KiB on x86-64 (SSE2, what `make` builds), by the compiler's call graph and by painting the
 # stack. The goal of 4 KiB is met without a table only: diffuse light holds 52 numbers a lane of the cells between it. With
-# -mavx2 clang keeps every constant as a vector on the stack: 6.5 KiB.
+# -mavx2 clang keeps every constant as a vector on the stack: 6.6 KiB.
 . "$(dirname "$0")/lib.sh"
 . "$(dirname "$0")/counts.sh"
-X86_STACK=6144 AVX2_STACK=6656 CORTEX_M_STACK=2048 TABLE_STACK=3072
+X86_STACK=6144 AVX2_STACK=6784 CORTEX_M_STACK=2048 TABLE_STACK=3072
 # within WHAT BYTES LIMIT
 within() { [ -n "$2" ] && [ "$2" -le "$3" ] || { echo "sizes: $1: ${2:-no} bytes of stack, at most $3 allowed"; return 1; }; }
 # call_graph FILE.ci...: the worst chain of each public function (gcc counts the return address in).
