@@ -9,7 +9,7 @@ rm -rf "$out"
 mkdir -p "$out"
 failed=0 left=()
 have() { command -v "$1" >/dev/null 2>&1; }
-make_() { env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "${MAKE:-make}" --no-print-directory -s DEPS=no B="$B" -j"$(nproc)" "$@" >"$out/make.log" 2>&1 ||
+make_() { flock "$B/make.lock" env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "${MAKE:-make}" --no-print-directory -s DEPS=no B="$B" -j"$(nproc)" "$@" >"$out/make.log" 2>&1 ||
     { cat "$out/make.log"; echo "bits: building $* failed"; exit 1; }; }
 # result NAME COMMAND...: runs it, keeps its lines.
 result() {

@@ -8,10 +8,10 @@ mkdir -p "$G"
 failed=0
 have() { command -v "$1" >/dev/null 2>&1; }
 fail() { echo "$*"; failed=1; }
-# quiet_make TARGET...: builds; says what make said when it fails.
+# quiet_make TARGET...: builds, one script at a time; says what make said when it fails.
 quiet_make() {
     local log=$G/make.$$.log
-    if ! env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "${MAKE:-make}" --no-print-directory -s DEPS=no B="$B" -j"$(nproc)" "$@" >"$log" 2>&1; then
+    if ! flock "$B/make.lock" env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "${MAKE:-make}" --no-print-directory -s DEPS=no B="$B" -j"$(nproc)" "$@" >"$log" 2>&1; then
         cat "$log"
         rm -f "$log"
         echo "building failed: $*"
