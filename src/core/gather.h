@@ -20,18 +20,31 @@ typedef struct skv_gather_ray {
     float weight; ///< solid angle, both half circles
 } skv_gather_ray;
 
-/// Polar angles mu = horizon +- range t^2, t by Gauss-Legendre. Azimuths crowd towards the light, phi = pi t^1.5, but
-/// for a light high up, where evenly spaced ones are exact for harmonics.
-static inline skv_gather_ray skv_gather_direction(float horizon, int polar, int azimuths, int even, int index) {
-    const int ip = index / azimuths, ia = index % azimuths, up = ip < polar;
-    const int at = skv_gauss_offset(polar) + (up ? ip : ip - polar), az = skv_gauss_offset(azimuths) + ia;
-    const float t = skv_gauss_node[at], u = skv_gauss_node[az], range = up ? 1.0f - horizon : 1.0f + horizon;
-    const float mu = horizon + (up ? range : -range) * t * t, root = skv_sqrtf(u);
+/// The directions of a cell.
+typedef struct skv_gather_fan {
+    float horizon;       ///< cosine of the zenith angle of the geometric horizon
+    int polar, azimuths; ///< twice and once so many
+    int even;            ///< azimuths are evenly spaced
+    int dark;            ///< nothing that is lit is seen below the horizon
+} skv_gather_fan;
+
+/// Polar angles mu = horizon +- range t^2, t by Gauss-Legendre; in the dark none are below the horizon, and each half
+/// of t above it has its own: after sunset the light comes from some degrees above the horizon. Azimuths crowd towards
+/// the light, phi = pi t^1.5, but for a light high up, where evenly spaced ones are exact for harmonics.
+static inline skv_gather_ray skv_gather_direction(const skv_gather_fan *fan, int index) {
+    const int ip = index / fan->azimuths, ia = index % fan->azimuths, first = ip < fan->polar, up = first || fan->dark;
+    const int at = skv_gauss_offset(fan->polar) + (first ? ip : ip - fan->polar);
+    const int az = skv_gauss_offset(fan->azimuths) + ia;
+    const float part = fan->dark ? 0.5f : 1.0f, from = fan->dark && !first ? 0.5f : 0.0f;
+    const float t = from + part * skv_gauss_node[at], u = skv_gauss_node[az], root = skv_sqrtf(u);
+    const float range = up ? 1.0f - fan->horizon : 1.0f + fan->horizon;
+    const float mu = fan->horizon + (up ? range : -range) * t * t;
     const float sin_theta = skv_sqrtf(skv_maxf((1.0f - mu) * (1.0f + mu), 0.0f));
-    const float whole = 1.0f / (float)azimuths;
-    const skv_sincos phi = skv_sincosf(SKV_PI * (even ? ((float)ia + 0.5f) * whole : u * root));
+    const float whole = 1.0f / (float)fan->azimuths;
+    const skv_sincos phi = skv_sincosf(SKV_PI * (fan->even ? ((float)ia + 0.5f) * whole : u * root));
     skv_gather_ray ray = {{sin_theta * phi.cos, sin_theta * phi.sin, mu}, phi.cos, 0.0f};
-    ray.weight = 4.0f * SKV_PI * t * range * skv_gauss_weight[at] * (even ? whole : 1.5f * root * skv_gauss_weight[az]);
+    ray.weight = 4.0f * SKV_PI * t * range * part * skv_gauss_weight[at] *
+                 (fan->even ? whole : 1.5f * root * skv_gauss_weight[az]);
     return ray;
 }
 

@@ -7,6 +7,7 @@
 #include "core/fine_fit.h"
 #include "core/gather.h"
 #include "core/phase.h"
+#include "core/table_fit.h"
 #include "core/table_pack.h"
 
 #if SKV_TERM_DIFFUSE
@@ -251,14 +252,15 @@ static SKV_NOINLINE void skv_table_source(skv_table_builder *b, const skv_gather
 static void skv_table_gather(skv_table_builder *b, int count) {
     const int later = b->pass > 1, bands = skv_bands(b->model);
     const float h = b->frame.height_km, r = b->frame.radius_km + h;
-    const float horizon = -skv_sqrtf(h * (b->frame.radius_km + r)) / r;
-    const int even = b->frame.light[0].mu_s > 0.3f;
+    const float horizon = -skv_sqrtf(h * (b->frame.radius_km + r)) / r, mu_s = b->frame.light[0].mu_s;
+    // Once the light has set, rays to the ground are in the planet's shadow: in the first pass they see nothing.
+    const skv_gather_fan fan = {horizon, b->spec.polar[later], b->spec.azimuths[later], mu_s > 0.3f,
+                                !later && mu_s < horizon};
     skv_gather_ray ray[SKV_TABLE_STEP_RAYS];
     float radiance[SKV_TABLE_STEP_RAYS * SKV_BANDS_MAX];
     for (int i = 0; i < count; i++) {
         const int last = !later && b->ray + i == skv_table_rays(b) - 1;
-        ray[i] = last ? skv_table_ray_to_light(b, horizon)
-                      : skv_gather_direction(horizon, b->spec.polar[later], b->spec.azimuths[later], even, b->ray + i);
+        ray[i] = last ? skv_table_ray_to_light(b, horizon) : skv_gather_direction(&fan, b->ray + i);
         b->seen += later ? 0.0f : ray[i].weight * skv_table_phase(b, ray[i].direction);
     }
     const skv_rays rays = {ray[0].direction, sizeof ray[0], NULL, 0};
@@ -426,24 +428,34 @@ static int skv_table_permille(const skv_table_builder *b) {
     return (int)((float)(before * cells + rays * cell) / (float)(all * cells) * 998.0f);
 }
 
+/// After the passes: on to the next of n rows or columns, and to the next thing to do behind the last one.
+static void skv_table_line_end(skv_table_builder *b, int n) {
+    if (++b->row < n)
+        return;
+    b->row = 0;
+    b->pass++;
+}
+
 skv_status skv_table_step(skv_table_builder *builder, int *permille) {
     if (!builder)
         return SKV_ERR_NULL;
     if (builder->layout != SKV_LAYOUT)
         return SKV_ERR_LAYOUT;
-    const int32_t tail = builder->spec.orders + 1, pack = tail + 1;
+    const int32_t tail = builder->spec.orders + 1, fit = tail + 1, pack = fit + 2;
     if (builder->pass < tail)
         skv_table_work(builder);
     else if (builder->pass == tail) {
         skv_table_tail(builder);
-        if (++builder->row == builder->work->altitudes) {
-            builder->row = 0;
-            builder->pass++;
-        }
+        skv_table_line_end(builder, builder->work->altitudes);
+    } else if (builder->pass == fit) {
+        skv_table_fit_row(builder->work, builder->row);
+        skv_table_line_end(builder, builder->work->altitudes);
+    } else if (builder->pass == fit + 1) {
+        skv_table_fit_column(builder->work, builder->row);
+        skv_table_line_end(builder, builder->work->suns);
     } else if (builder->pass == pack) {
         skv_table_pack_row(builder->work, builder->table, builder->row, builder->largest, builder->spec.format);
-        if (++builder->row == builder->work->altitudes)
-            builder->pass++;
+        skv_table_line_end(builder, builder->work->altitudes);
     } else if (builder->pass == pack + 1) {
         skv_table_seal(builder->table);
         builder->pass++;

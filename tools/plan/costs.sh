@@ -52,7 +52,7 @@ count() {
     fi
     {
         grep -v '^sizes' "$dir/lines" | paste -d' ' "$dir/counts" -
-        echo "0 $(grep '^sizes' "$dir/lines") $(target_bytes "$1" "$dir" 'table|table_pack|fine_fit|diffuse|grid|frame_table') $(target_bytes "$1" "$dir" none)"
+        echo "0 $(grep '^sizes' "$dir/lines") $(target_bytes "$1" "$dir" 'table|table_fit|table_pack|fine_fit|diffuse|grid|frame_table') $(target_bytes "$1" "$dir" none)"
     } >"$dir/rows.new"
     mv "$dir/rows.new" "$dir/rows"
 }
