@@ -15,13 +15,17 @@ bool skv_debounce_time(skv_debounce *button, int64_t now_ns) {
     return changed;
 }
 
-bool skv_debounce_edge(skv_debounce *button, int64_t at_ns, bool level) {
-    const bool changed = skv_debounce_time(button, at_ns);
+void skv_debounce_lost(skv_debounce *button, int64_t now_ns, bool level) {
     if (button->waiting)
         button->bounces++;
     button->waiting = true;
-    button->edge_ns = at_ns;
+    button->edge_ns = now_ns;
     button->raw = level;
+}
+
+bool skv_debounce_edge(skv_debounce *button, int64_t at_ns, bool level) {
+    const bool changed = skv_debounce_time(button, at_ns);
+    skv_debounce_lost(button, at_ns, level);
     return changed;
 }
 

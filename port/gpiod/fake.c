@@ -13,8 +13,8 @@ enum { LINES = 16, QUEUE = 16, NAME = 96 };
 typedef struct {
     char name[NAME];
     const char *refused;
-    bool level, active_low, lost;
-    lines_edge queue[QUEUE];
+    bool level, active_low, lost, storm, early, by_name;
+    lines_edge queue[QUEUE], next;
     int queued, fd;
 } line;
 
@@ -66,12 +66,26 @@ void fake_edge(const char *name, int64_t at_ns, bool level) {
     (void)written;
 }
 
+void fake_edge_before_level(const char *name, int64_t at_ns, bool level) {
+    line *it = find(name);
+    it->early = true;
+    it->next = (lines_edge){at_ns, 0, level};
+}
+
+void fake_storm(const char *name) {
+    find(name)->storm = true;
+}
+
 void fake_lose(const char *name) {
     find(name)->lost = true;
 }
 
 bool fake_level(const char *name) {
     return find(name)->level;
+}
+
+bool fake_by_name(const char *name) {
+    return find(name)->by_name;
 }
 
 int fake_open(void) {
@@ -84,6 +98,7 @@ static line *take(const lines_spec *spec, char why[LINES_WHY]) {
     line *it = find(name);
     if (it && !it->refused) {
         it->active_low = spec->active_low;
+        it->by_name = spec->name != NULL;
         it->fd = eventfd(0, EFD_NONBLOCK);
         return it;
     }
@@ -130,12 +145,18 @@ int lines_read(lines_request *request, lines_edge *edges, int room) {
             edges[total++].index = i;
         }
         it->queued = 0;
+        for (bool level = it->level; it->storm && total < room; level = !level)
+            edges[total++] = (lines_edge){clock_ns, i, level};
     }
     return total;
 }
 
 int lines_level(lines_request *request, int index) {
-    const line *it = request->lines[index];
+    line *it = request->lines[index];
+    const bool early = it->early;
+    it->early = false;
+    if (early)
+        fake_edge(it->name, it->next.at_ns, it->next.level);
     return it->lost ? -1 : it->level != it->active_low;
 }
 

@@ -17,39 +17,14 @@ struct lines_request {
     struct gpiod_line_bulk bulk;
 };
 
-typedef struct {
-    char chip[CHIPS_PATH];
-    unsigned offset;
-} place;
-
-static bool find_name(const char *name, place *found, char why[LINES_WHY]) {
-    int number = -1, chips = 0;
-    char refused[CHIPS_PATH + 64] = "";
-    while (chips_next(&number)) {
-        chips_path(found->chip, number);
-        struct gpiod_chip *chip = gpiod_chip_open(found->chip);
-        if (!chip) {
-            snprintf(refused, sizeof refused, "; %s: %s", found->chip, strerror(errno));
-            continue;
-        }
-        chips++;
-        struct gpiod_line *line = gpiod_chip_find_line(chip, name);
-        if (line)
-            found->offset = gpiod_line_offset(line);
-        gpiod_chip_close(chip);
-        if (line)
-            return true;
-    }
-    snprintf(why, LINES_WHY, "no such line on %d GPIO chip%s%s", chips, chips == 1 ? "" : "s", refused);
-    return false;
-}
-
-static bool locate(const lines_spec *spec, place *found, char why[LINES_WHY]) {
-    if (spec->name)
-        return find_name(spec->name, found, why);
-    snprintf(found->chip, sizeof found->chip, "%s", spec->chip);
-    found->offset = spec->offset;
-    return true;
+static int find(const char *path, const char *name) {
+    struct gpiod_chip *chip = gpiod_chip_open(path);
+    if (!chip)
+        return CHIPS_REFUSED;
+    struct gpiod_line *line = gpiod_chip_find_line(chip, name);
+    const int offset = line ? (int)gpiod_line_offset(line) : CHIPS_ABSENT;
+    gpiod_chip_close(chip);
+    return offset;
 }
 
 static struct gpiod_line *line_at(struct gpiod_chip *chip, unsigned offset, char why[LINES_WHY]) {
@@ -69,17 +44,14 @@ static int flags_of(const lines_spec *spec) {
            (spec->pull_up ? GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP : 0);
 }
 
-static void explain(struct gpiod_line_bulk *bulk, int error, char why[LINES_WHY]) {
+static void explain(struct gpiod_line_bulk *bulk, bool inputs, int error, char why[LINES_WHY]) {
     const char *user = NULL;
     for (unsigned i = 0; i < gpiod_line_bulk_num_lines(bulk); i++) {
         struct gpiod_line *line = gpiod_line_bulk_get_line(bulk, i);
         if (gpiod_line_is_used(line))
             user = gpiod_line_consumer(line) ? gpiod_line_consumer(line) : "the kernel";
     }
-    if (error == EBUSY && user)
-        snprintf(why, LINES_WHY, "busy: in use by %s", user);
-    else
-        snprintf(why, LINES_WHY, "%s", strerror(error));
+    chips_explain(error, user, inputs, why);
 }
 
 static lines_request *give_up(lines_request *request) {
@@ -91,24 +63,17 @@ static lines_request *give_up(lines_request *request) {
 
 // The lines, found but not yet requested.
 static lines_request *gather(const lines_spec *specs, int n, char why[LINES_WHY]) {
-    place first = {.offset = 0}, next;
-    if (!locate(&specs[0], &first, why))
+    chips_place places[LINES_MAX];
+    if (!chips_gather(specs, n, find, places, why))
         return NULL;
     lines_request *request = calloc(1, sizeof *request);
-    if (!request || !(request->chip = gpiod_chip_open(first.chip))) {
-        snprintf(why, LINES_WHY, "%s: %s", first.chip, strerror(errno));
+    if (!request || !(request->chip = gpiod_chip_open(places[0].chip))) {
+        chips_refused(places[0].chip, errno, why, LINES_WHY);
         return give_up(request);
     }
     gpiod_line_bulk_init(&request->bulk);
     for (int i = 0; i < n; i++) {
-        if (!locate(&specs[i], &next, why))
-            return give_up(request);
-        if (strcmp(next.chip, first.chip) != 0) {
-            snprintf(why, LINES_WHY, "both lines have to be on one chip, these are on %.60s and %.60s", first.chip,
-                     next.chip);
-            return give_up(request);
-        }
-        struct gpiod_line *line = line_at(request->chip, next.offset, why);
+        struct gpiod_line *line = line_at(request->chip, places[i].offset, why);
         if (!line)
             return give_up(request);
         gpiod_line_bulk_add(&request->bulk, line);
@@ -130,7 +95,7 @@ lines_request *lines_inputs(const lines_spec *specs, int n, char why[LINES_WHY])
                                                             CONSUMER, flags_of(&specs[i]));
     if (!failed)
         return request;
-    explain(&request->bulk, errno, why);
+    explain(&request->bulk, true, errno, why);
     return give_up(request);
 }
 
@@ -139,7 +104,7 @@ lines_request *lines_output(const lines_spec *spec, char why[LINES_WHY]) {
     if (!request ||
         !gpiod_line_request_output_flags(gpiod_line_bulk_get_line(&request->bulk, 0), CONSUMER, flags_of(spec), 0))
         return request;
-    explain(&request->bulk, errno, why);
+    explain(&request->bulk, false, errno, why);
     return give_up(request);
 }
 
@@ -155,11 +120,6 @@ static int64_t ns_of(const struct timespec *at) {
     return (int64_t)at->tv_sec * 1000000000 + at->tv_nsec;
 }
 
-// Kernels before 5.7 stamp with the wall clock: such an edge is taken as one of now.
-static int64_t steady(int64_t at_ns, int64_t now_ns) {
-    return at_ns > now_ns || at_ns < now_ns - INT64_C(10000000000) ? now_ns : at_ns;
-}
-
 static int read_line(struct gpiod_line *line, int index, lines_edge *edges, int room) {
     struct gpiod_line_event events[16];
     struct pollfd waits = {.fd = gpiod_line_event_get_fd(line), .events = POLLIN};
@@ -168,9 +128,11 @@ static int read_line(struct gpiod_line *line, int index, lines_edge *edges, int 
     if (waits.revents & (POLLERR | POLLHUP | POLLNVAL))
         return -1;
     const int n = gpiod_line_event_read_multiple(line, events, (unsigned)(room < 16 ? room : 16));
-    const int64_t now = lines_now();
+    struct timespec wall;
+    clock_gettime(CLOCK_REALTIME, &wall);
+    const int64_t now_ns = lines_now();
     for (int i = 0; i < n; i++)
-        edges[i] = (lines_edge){steady(ns_of(&events[i].ts), now), index,
+        edges[i] = (lines_edge){chips_steady(ns_of(&events[i].ts), now_ns, ns_of(&wall)), index,
                                 events[i].event_type == GPIOD_LINE_EVENT_RISING_EDGE};
     return n;
 }
@@ -198,10 +160,4 @@ void lines_release(lines_request *request) {
     if (request)
         gpiod_line_release_bulk(&request->bulk);
     give_up(request);
-}
-
-int64_t lines_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return ns_of(&now);
 }

@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define CONSUMER "skyvert"
-enum { BUFFER = 16 };
+// Edges that the kernel keeps while the program is busy (by itself 16 a line), and that are read at once.
+enum { QUEUE = 512, BUFFER = 16 };
 
 struct lines_request {
     struct gpiod_line_request *held;
@@ -20,59 +20,37 @@ struct lines_request {
     int n;
 };
 
-typedef struct {
-    char chip[CHIPS_PATH];
-    unsigned offset;
-} place;
-
-static bool find_name(const char *name, place *found, char why[LINES_WHY]) {
-    int number = -1, chips = 0;
-    char refused[CHIPS_PATH + 64] = "";
-    while (chips_next(&number)) {
-        chips_path(found->chip, number);
-        struct gpiod_chip *chip = gpiod_chip_open(found->chip);
-        if (!chip) {
-            snprintf(refused, sizeof refused, "; %s: %s", found->chip, strerror(errno));
-            continue;
-        }
-        chips++;
-        const int offset = gpiod_chip_get_line_offset_from_name(chip, name);
-        gpiod_chip_close(chip);
-        if (offset >= 0) {
-            found->offset = (unsigned)offset;
-            return true;
-        }
-    }
-    snprintf(why, LINES_WHY, "no such line on %d GPIO chip%s%s", chips, chips == 1 ? "" : "s", refused);
-    return false;
-}
-
-static bool locate(const lines_spec *spec, place *found, char why[LINES_WHY]) {
-    if (spec->name)
-        return find_name(spec->name, found, why);
-    snprintf(found->chip, sizeof found->chip, "%s", spec->chip);
-    found->offset = spec->offset;
-    return true;
+static int find(const char *path, const char *name) {
+    struct gpiod_chip *chip = gpiod_chip_open(path);
+    if (!chip)
+        return CHIPS_REFUSED;
+    const int offset = gpiod_chip_get_line_offset_from_name(chip, name);
+    gpiod_chip_close(chip);
+    return offset < 0 ? CHIPS_ABSENT : offset;
 }
 
 // Whether the chip has this line.
 static bool in_range(struct gpiod_chip *chip, unsigned offset, char why[LINES_WHY]) {
     struct gpiod_chip_info *info = gpiod_chip_get_info(chip);
-    const size_t lines = info ? gpiod_chip_info_get_num_lines(info) : 0;
+    if (!info) {
+        snprintf(why, LINES_WHY, "%s", strerror(errno));
+        return false;
+    }
+    const size_t lines = gpiod_chip_info_get_num_lines(info);
     if (offset >= lines)
-        snprintf(why, LINES_WHY, "%s has the lines 0 to %d", info ? gpiod_chip_info_get_name(info) : "the chip",
-                 (int)lines - 1);
+        snprintf(why, LINES_WHY, "%s has the lines 0 to %d", gpiod_chip_info_get_name(info), (int)lines - 1);
     gpiod_chip_info_free(info);
     return offset < lines;
 }
 
-static void explain(struct gpiod_chip *chip, const lines_request *request, int error, char why[LINES_WHY]) {
-    snprintf(why, LINES_WHY, "%s", strerror(error));
+static void explain(struct gpiod_chip *chip, const lines_request *request, bool output, char why[LINES_WHY]) {
+    const int error = errno;
+    chips_explain(error, NULL, !output, why);
     for (int i = 0; error == EBUSY && i < request->n; i++) {
         struct gpiod_line_info *info = gpiod_chip_get_line_info(chip, request->offsets[i]);
         if (info && gpiod_line_info_is_used(info)) {
             const char *user = gpiod_line_info_get_consumer(info);
-            snprintf(why, LINES_WHY, "busy: in use by %s", user ? user : "the kernel");
+            chips_explain(error, user ? user : "the kernel", !output, why);
         }
         gpiod_line_info_free(info);
     }
@@ -103,6 +81,7 @@ static bool ask_for(struct gpiod_chip *chip, const lines_spec *specs, lines_requ
         ready = settle(lines, &specs[i], request->offsets[i], output);
     if (ready) {
         gpiod_request_config_set_consumer(name, CONSUMER);
+        gpiod_request_config_set_event_buffer_size(name, QUEUE);
         request->held = gpiod_chip_request_lines(chip, name, lines);
     }
     const int error = errno;
@@ -112,38 +91,22 @@ static bool ask_for(struct gpiod_chip *chip, const lines_spec *specs, lines_requ
     return request->held != NULL;
 }
 
-// Offsets of the lines, all on the chip of the first.
-static bool gather(const lines_spec *specs, lines_request *request, place *first, char why[LINES_WHY]) {
-    for (int i = 0; i < request->n; i++) {
-        place found = {.offset = 0};
-        if (!locate(&specs[i], &found, why))
-            return false;
-        if (i == 0)
-            *first = found;
-        if (strcmp(found.chip, first->chip) != 0) {
-            snprintf(why, LINES_WHY, "both lines have to be on one chip, these are on %.60s and %.60s", first->chip,
-                     found.chip);
-            return false;
-        }
-        request->offsets[i] = found.offset;
-    }
-    return true;
-}
-
 static bool open_lines(const lines_spec *specs, lines_request *request, bool output, char why[LINES_WHY]) {
-    place first = {.offset = 0};
-    if (!gather(specs, request, &first, why))
+    chips_place places[LINES_MAX];
+    if (!chips_gather(specs, request->n, find, places, why))
         return false;
-    struct gpiod_chip *chip = gpiod_chip_open(first.chip);
+    struct gpiod_chip *chip = gpiod_chip_open(places[0].chip);
     if (!chip) {
-        snprintf(why, LINES_WHY, "%s: %s", first.chip, strerror(errno));
+        chips_refused(places[0].chip, errno, why, LINES_WHY);
         return false;
     }
     bool good = true;
-    for (int i = 0; good && i < request->n; i++)
-        good = in_range(chip, request->offsets[i], why);
+    for (int i = 0; good && i < request->n; i++) {
+        request->offsets[i] = places[i].offset;
+        good = in_range(chip, places[i].offset, why);
+    }
     if (good && !ask_for(chip, specs, request, output)) {
-        explain(chip, request, errno, why);
+        explain(chip, request, output, why);
         good = false;
     }
     gpiod_chip_close(chip); // the request outlives it
@@ -220,10 +183,4 @@ void lines_release(lines_request *request) {
         gpiod_line_request_release(request->held);
     gpiod_edge_event_buffer_free(request->buffer);
     free(request);
-}
-
-int64_t lines_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }

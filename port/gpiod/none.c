@@ -41,7 +41,3 @@ int lines_set(lines_request *request, bool level) {
 void lines_release(lines_request *request) {
     (void)request;
 }
-
-int64_t lines_now(void) {
-    return 0;
-}

@@ -15,7 +15,8 @@
 // The kernel queues the edges of two lines apart: those of the encoder are put in order, and the newest wait this long
 // for one that is older. A hand turns slower than that: 1,000 quarter steps a second.
 #define HOLD_NS INT64_C(1000000)
-enum { EDGES = 64, SWITCHES = 2, INPUTS = 3 };
+// A line that never rests is left for the next call after so many reads.
+enum { EDGES = 64, SWITCHES = 2, ROUNDS = 16 };
 
 typedef struct {
     lines_request *request;
@@ -42,17 +43,29 @@ static const char *const words[SKV_GPIO_USES] = {"encoder_a", "encoder_b",  "but
                                                  "toggle",    "lamp_night", "lamp_bus"};
 
 static void complain(const skv_gpio *panel, skv_gpio_use use, const char *why) {
-    char sentence[SKV_GPIO_NAME + LINES_WHY + 64];
+    char sentence[2 * SKV_GPIO_NAME + LINES_WHY + 64];
     if (use == SKV_GPIO_ENCODER_A && panel->config.line[SKV_GPIO_ENCODER_B][0])
-        snprintf(sentence, sizeof sentence, "gpio: encoder (%.40s, %.40s): %s; goes on without it",
-                 panel->config.line[0], panel->config.line[1], why);
+        snprintf(sentence, sizeof sentence, "gpio: encoder (%s, %s): %s; goes on without it", panel->config.line[0],
+                 panel->config.line[1], why);
     else
         snprintf(sentence, sizeof sentence, "gpio: %s (%s): %s; goes on without it", words[use],
                  panel->config.line[use], why);
     panel->say(panel->context, sentence);
 }
 
-// CHIP:OFFSET, with the chip as a number, a name or a path; anything else is a line's name.
+// Whether an earlier use has this line.
+static bool taken(const skv_gpio *panel, skv_gpio_use use) {
+    int first = 0;
+    while (strcmp(panel->config.line[first], panel->config.line[use]) != 0)
+        first++;
+    char why[LINES_WHY];
+    snprintf(why, sizeof why, "this line is %s already", words[first]);
+    if (first != (int)use)
+        complain(panel, use, why);
+    return first != (int)use;
+}
+
+// CHIP:OFFSET, with the chip as a number, gpiochipN or a path; anything else is a line's name.
 static lines_spec spec_of(const skv_gpio_config *config, skv_gpio_use use, char chip[SKV_GPIO_NAME + 16]) {
     const char *text = config->line[use], *colon = strrchr(text, ':');
     lines_spec spec = {text, NULL, 0, config->active_low[use], config->pull_up[use]};
@@ -61,12 +74,10 @@ static lines_spec spec_of(const skv_gpio_config *config, skv_gpio_use use, char 
     if (!colon || colon == text || colon[1] < '0' || colon[1] > '9' || *end != '\0' || offset > 65535)
         return spec;
     const int length = (int)(colon - text);
-    const bool number = strspn(text, "0123456789") == (size_t)length;
-    snprintf(chip, SKV_GPIO_NAME + 16, "%s%.*s",
-             text[0] == '/' ? ""
-             : number       ? "/dev/gpiochip"
-                            : "/dev/",
-             length, text);
+    const bool path = text[0] == '/', number = strspn(text, "0123456789") == (size_t)length;
+    if (!path && !number && strncmp(text, "gpiochip", 8) != 0)
+        return spec;
+    snprintf(chip, SKV_GPIO_NAME + 16, "%s%.*s", path ? "" : number ? "/dev/gpiochip" : "/dev/", length, text);
     spec.name = NULL;
     spec.chip = chip;
     spec.offset = (unsigned)offset;
@@ -123,7 +134,7 @@ static void open_encoder(skv_gpio *panel) {
 static void open_contact(skv_gpio *panel, int i) {
     const skv_gpio_use use = (skv_gpio_use)(SKV_GPIO_BUTTON + i);
     contact *it = &panel->contacts[i];
-    if (!panel->config.line[use][0] || !(it->request = open_inputs(panel, use, 1)))
+    if (!panel->config.line[use][0] || taken(panel, use) || !(it->request = open_inputs(panel, use, 1)))
         return;
     const int level = lines_level(it->request, 0);
     if (level < 0)
@@ -135,7 +146,7 @@ static void open_contact(skv_gpio *panel, int i) {
 static void open_lamp(skv_gpio *panel, int i) {
     char chip[SKV_GPIO_NAME + 16], why[LINES_WHY] = "";
     const skv_gpio_use use = (skv_gpio_use)(SKV_GPIO_LAMP_NIGHT + i);
-    if (!panel->config.line[use][0])
+    if (!panel->config.line[use][0] || taken(panel, use))
         return;
     const lines_spec spec = spec_of(&panel->config, use, chip);
     panel->lamp[i] = lines_output(&spec, why);
@@ -234,8 +245,8 @@ static void take_edges(skv_gpio *panel, int64_t until_ns, skv_gpio_input *input)
 static void read_encoder(skv_gpio *panel, skv_gpio_input *input) {
     // Before the lines are read: all edges up to then are in the queues, but for those that an interrupt is at.
     const int64_t until_ns = lines_now() - HOLD_NS;
-    int n = 0;
-    do {
+    int n = 1;
+    for (int round = 0; n > 0 && round < ROUNDS; round++) {
         n = lines_read(panel->encoder, panel->edges + panel->waiting, EDGES - panel->waiting);
         if (n < 0) {
             lose(panel, &panel->encoder, SKV_GPIO_ENCODER_A);
@@ -246,7 +257,7 @@ static void read_encoder(skv_gpio *panel, skv_gpio_input *input) {
         panel->waiting += n;
         sort_edges(panel->edges, panel->waiting);
         take_edges(panel, panel->waiting == EDGES ? panel->edges[EDGES / 2].at_ns : until_ns, input);
-    } while (n > 0);
+    }
     if (panel->waiting == 0 && panel->unchecked)
         check_encoder(panel);
 }
@@ -258,14 +269,18 @@ static void changed(skv_gpio_use use, bool level, skv_gpio_input *input) {
         input->toggled = true;
 }
 
-// The level that is about to count is read once more: its last edge may have been lost.
+// The level that is about to count is read once more. Another one without an edge: the last edge was lost, and it waits
+// anew.
 static void settle(contact *it, skv_gpio_use use, int64_t now_ns, skv_gpio_input *input) {
     skv_debounce *debounce = &it->debounce;
     if (skv_debounce_due(debounce) > now_ns)
         return;
     const int level = lines_level(it->request, 0);
-    const bool lost = level >= 0 && (level > 0) != debounce->raw;
-    if (lost ? skv_debounce_edge(debounce, now_ns, level > 0) : skv_debounce_time(debounce, now_ns))
+    if (more_waits(it->request))
+        return;
+    if (level >= 0 && (level > 0) != debounce->raw)
+        skv_debounce_lost(debounce, now_ns, level > 0);
+    else if (skv_debounce_time(debounce, now_ns))
         changed(use, debounce->level, input);
 }
 
@@ -273,8 +288,9 @@ static void read_contact(skv_gpio *panel, int i, skv_gpio_input *input) {
     contact *it = &panel->contacts[i];
     const skv_gpio_use use = (skv_gpio_use)(SKV_GPIO_BUTTON + i);
     lines_edge edges[EDGES];
-    int n = 0;
-    while (it->request && (n = lines_read(it->request, edges, EDGES)) != 0) {
+    int n = 1;
+    for (int round = 0; n > 0 && round < ROUNDS; round++) {
+        n = lines_read(it->request, edges, EDGES);
         if (n < 0)
             lose(panel, &it->request, use);
         for (int at = 0; at < n; at++) {
@@ -316,7 +332,7 @@ void skv_gpio_read(skv_gpio *panel, skv_gpio_input *input) {
     input->clicks = skv_quadrature_clicks(&panel->steps, panel->config.encoder_steps);
     input->position = panel->quadrature.position;
     input->invalid = panel->quadrature.invalid;
-    input->button = panel->contacts[0].debounce.level;
+    input->button = panel->contacts[0].request && panel->contacts[0].debounce.level;
     input->toggle = panel->contacts[1].debounce.level;
     input->bounces = panel->contacts[0].debounce.bounces + panel->contacts[1].debounce.bounces;
     set_timer(panel);

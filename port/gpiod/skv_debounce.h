@@ -23,6 +23,9 @@ void skv_debounce_start(skv_debounce *button, bool level, int64_t steady_ns);
 /// @return whether the level that counts had changed before this edge: the level before it was settled.
 bool skv_debounce_edge(skv_debounce *button, int64_t at_ns, bool level);
 
+/// The level was seen to be this, without an edge: it was lost. What came before it does not count.
+void skv_debounce_lost(skv_debounce *button, int64_t now_ns, bool level);
+
 /// The time has come to this.
 /// @return whether the level that counts has changed.
 bool skv_debounce_time(skv_debounce *button, int64_t now_ns);

@@ -62,8 +62,8 @@ int skv_gpio_fd(const skv_gpio *panel);
 typedef struct {
     int32_t clicks;   ///< of the encoder since the last call, forwards positive
     uint32_t presses; ///< of the button since the last call
-    bool button;      ///< held down
-    bool toggle;      ///< on
+    bool button;      ///< held down; false once its line is lost
+    bool toggle;      ///< on; as it was once its line is lost
     bool toggled;     ///< toggle has changed since the last call
     int64_t input_ns; ///< newest edge since the last call, CLOCK_MONOTONIC as the kernel saw it; 0: none
     int32_t position; ///< of the encoder, quarter steps since the start

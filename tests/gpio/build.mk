@@ -1,7 +1,12 @@
-# GPIO without hardware: the pure parts, and the panel on fake lines. On a real kernel: tests/rig/guest/gpio.sh.
+# GPIO without hardware: the pure parts, the panel on fake lines, what both versions of libgpiod share. On a real kernel:
+# tests/rig/guest/gpio.sh.
 GPIO_TESTS := $(patsubst tests/gpio/%.c,$(B)/tests/gpio/%,$(wildcard tests/gpio/test_*.c))
 TEST_BIN   += $(GPIO_TESTS)
-$(GPIO_TESTS): $(B)/tests/gpio/%: tests/gpio/%.c tests/check.h $(patsubst %.c,$(B)/%.o,$(SKV_GPIO_PANEL) port/gpiod/fake.c)
+GPIO_PARTS := $(patsubst %.c,$(B)/%.o,$(SKV_GPIO_PANEL))
+$(B)/tests/gpio/test_logic $(B)/tests/gpio/test_panel: $(GPIO_PARTS) $(B)/port/gpiod/fake.o
+$(B)/tests/gpio/test_none: $(GPIO_PARTS) $(B)/port/gpiod/chips.o $(B)/port/gpiod/none.o
+$(B)/tests/gpio/test_chips: port/gpiod/chips.c port/gpiod/chips.h port/gpiod/lines.h
+$(GPIO_TESTS): $(B)/tests/gpio/%: tests/gpio/%.c tests/check.h
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -I. -Itests $< $(filter %.o,$^) -lcmocka -o $@
 

@@ -187,6 +187,22 @@ static void lost_edges_are_noticed(void **state) {
     skv_gpio_close(panel);
 }
 
+// An edge comes while the levels are compared: it counts once, as the edge that it is.
+static void turned_while_it_is_checked(void **state) {
+    (void)state;
+    skv_gpio *panel = whole_panel();
+    skv_gpio_input input;
+    fake_edge("B", 1001 * MS, true);
+    fake_edge_before_level("A", 1010 * MS, true);
+    for (int at = 1010; at <= 1020; at += 10) {
+        fake_time(at * MS);
+        skv_gpio_read(panel, &input);
+    }
+    assert_int_equal(input.position, 2);
+    assert_int_equal(input.invalid, 0);
+    skv_gpio_close(panel);
+}
+
 static void button_and_toggle(void **state) {
     (void)state;
     skv_gpio *panel = whole_panel();
@@ -199,6 +215,9 @@ static void button_and_toggle(void **state) {
     fake_time(1005 * MS);
     skv_gpio_read(panel, &input);
     assert_int_equal(input.presses, 0);
+    assert_true(input.input_ns == 1004 * MS);
+    struct pollfd waits = {.fd = skv_gpio_fd(panel), .events = POLLIN};
+    assert_int_equal(poll(&waits, 1, 2000), 1); // without an edge: the timer, the fake's times are long past
     fake_time(1014 * MS);
     skv_gpio_read(panel, &input);
     assert_int_equal(input.presses, 1);
@@ -220,13 +239,93 @@ static void a_lost_last_edge(void **state) {
     fake_edge("PUSH", 1000 * MS, true);
     for (int i = 0; i < 16; i++)
         fake_edge("PUSH", 1001 * MS + i, i % 2 != 0); // the 17th edge, back up, is lost
-    fake_time(1020 * MS);
-    skv_gpio_read(panel, &input);
-    fake_time(1040 * MS);
-    skv_gpio_read(panel, &input);
-    assert_int_equal(input.presses, 0);
-    assert_false(input.button);
+    for (int at = 1020; at <= 1040; at += 20) {
+        fake_time(at * MS);
+        skv_gpio_read(panel, &input);
+        assert_int_equal(input.presses, 0);
+        assert_false(input.button);
+    }
+    assert_int_equal(input.bounces, 17); // 16 kept, and the one that was missed
     skv_gpio_close(panel);
+}
+
+// The button is let go just when its press has settled and the level is read once more: nothing was lost, it counts.
+static void released_while_it_settles(void **state) {
+    (void)state;
+    skv_gpio *panel = whole_panel();
+    skv_gpio_input input;
+    int presses = 0;
+    fake_edge("PUSH", 1000 * MS, false);
+    fake_time(1009 * MS);
+    skv_gpio_read(panel, &input);
+    fake_edge_before_level("PUSH", 1012 * MS, true);
+    for (int at = 1012; at <= 1032; at += 10) {
+        fake_time(at * MS);
+        skv_gpio_read(panel, &input);
+        presses += (int)input.presses;
+    }
+    assert_int_equal(presses, 1);
+    assert_false(input.button);
+    assert_int_equal(input.bounces, 0);
+    skv_gpio_close(panel);
+}
+
+// A line that is open and picks up a signal: a read ends, and the other lines work.
+static void a_line_that_never_rests(void **state) {
+    (void)state;
+    skv_gpio *panel = whole_panel();
+    skv_gpio_input input;
+    fake_storm("A");
+    fake_storm("PUSH");
+    fake_edge("/dev/gpiochip0:4", 1000 * MS, true);
+    fake_time(1050 * MS);
+    skv_gpio_read(panel, &input);
+    assert_true(input.toggle);
+    assert_int_equal(input.presses, 0);
+    skv_gpio_close(panel);
+}
+
+static void one_line_for_two_uses(void **state) {
+    (void)state;
+    skv_gpio_config config;
+    fake_reset();
+    sentences = 0;
+    fake_line("UP BUTTON", false);
+    fake_line("NIGHT", false);
+    skv_gpio_defaults(&config);
+    set(&config, "button", "UP BUTTON");
+    set(&config, "toggle", "UP BUTTON");
+    set(&config, "lamp_night", "NIGHT");
+    set(&config, "lamp_bus", "NIGHT");
+    skv_gpio *panel = skv_gpio_open(&config, say, NULL);
+    assert_int_equal(sentences, 2);
+    assert_string_equal(said[0], "gpio: toggle (UP BUTTON): this line is button already; goes on without it");
+    assert_string_equal(said[1], "gpio: lamp_bus (NIGHT): this line is lamp_night already; goes on without it");
+    assert_true(skv_gpio_has(panel, SKV_GPIO_BUTTON) && skv_gpio_has(panel, SKV_GPIO_LAMP_NIGHT));
+    assert_false(skv_gpio_has(panel, SKV_GPIO_TOGGLE) || skv_gpio_has(panel, SKV_GPIO_LAMP_BUS));
+    skv_gpio_close(panel);
+    assert_int_equal(fake_open(), 0);
+}
+
+// CHIP:OFFSET is a number, gpiochipN or a path before the colon. Other names have colons too.
+static void names_with_colons(void **state) {
+    (void)state;
+    static const char *const lines[][2] = {{"PMOD1:3", "PMOD1:3"},
+                                           {"7:3", "/dev/gpiochip7:3"},
+                                           {"gpiochip7:4", "/dev/gpiochip7:4"},
+                                           {"/dev/x:5", "/dev/x:5"}};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        skv_gpio_config config;
+        fake_reset();
+        sentences = 0;
+        fake_line(lines[i][1], false);
+        skv_gpio_defaults(&config);
+        set(&config, "button", lines[i][0]);
+        skv_gpio *panel = skv_gpio_open(&config, say, NULL);
+        if (sentences != 0 || fake_by_name(lines[i][1]) != (i == 0))
+            fail_msg("button = %s: %s", lines[i][0], sentences ? said[0] : "taken the wrong way");
+        skv_gpio_close(panel);
+    }
 }
 
 static void lamps(void **state) {
@@ -252,9 +351,11 @@ static void lines_pulled_while_in_use(void **state) {
     (void)state;
     skv_gpio *panel = whole_panel();
     skv_gpio_input input;
+    fake_edge("PUSH", 980 * MS, false);
     fake_edge("A", 1000 * MS + MS / 2, true);
     fake_time(1001 * MS);
     skv_gpio_read(panel, &input); // waits for older ones
+    assert_true(input.button);
     fake_lose("B");
     fake_lose("PUSH");
     fake_time(1002 * MS);
@@ -263,6 +364,7 @@ static void lines_pulled_while_in_use(void **state) {
     assert_int_equal(sentences, 2); // once each
     assert_string_equal(said[0], "gpio: encoder (A, B): lost; goes on without it");
     assert_string_equal(said[1], "gpio: button (PUSH): lost; goes on without it");
+    assert_false(input.button); // not held down for ever
     struct pollfd waits = {.fd = skv_gpio_fd(panel), .events = POLLIN};
     assert_int_equal(poll(&waits, 1, 0), 0); // nothing that wakes it for ever
     fake_edge("/dev/gpiochip0:4", 1003 * MS, true);
@@ -280,8 +382,13 @@ int main(void) {
         cmocka_unit_test(edges_are_put_in_order),
         cmocka_unit_test(a_new_edge_waits),
         cmocka_unit_test(lost_edges_are_noticed),
+        cmocka_unit_test(turned_while_it_is_checked),
         cmocka_unit_test(button_and_toggle),
         cmocka_unit_test(a_lost_last_edge),
+        cmocka_unit_test(released_while_it_settles),
+        cmocka_unit_test(a_line_that_never_rests),
+        cmocka_unit_test(one_line_for_two_uses),
+        cmocka_unit_test(names_with_colons),
         cmocka_unit_test(lamps),
         cmocka_unit_test(lines_pulled_while_in_use),
     };

@@ -67,6 +67,9 @@ expect "gpio: toggle (gpiochip0:8): gpiochip0 has the lines 0 to 7; goes on with
 expect "gpio: lamp_night (0:5): busy: in use by skyvert; goes on without it"
 expect "gpio: lamp_bus (gpiochip9:0): /dev/gpiochip9: No such file or directory; goes on without it"
 [ "$(grep -c '^gpio: ' refused.log)" = 5 ] || fail "one line each: $(cat refused.log)"
+echo end | $panel encoder_a=SPARE encoder_b=0:7 button=gpiochip0:7 toggle=gpiochip0:7 >refused.log 2>&1 || fail "a line for two uses: status $?: $(cat refused.log)"
+expect "both are line 7 of /dev/gpiochip0"
+expect "this line is button already"
 $panel debounce_ms=fast >bad.log 2>&1
 [ $? = 2 ] || fail "debounce_ms=fast was taken"
 
