@@ -2,7 +2,7 @@
 BASELINE_TESTS := $(patsubst tests/baselines/test_%.c,$(B)/tests/baselines/test_%,$(wildcard tests/baselines/test_*.c))
 TEST_BIN += $(BASELINE_TESTS)
 
-$(B)/tests/baselines/%.o: tests/baselines/%.c $(wildcard tests/baselines/*.h tools/baselines/*.h tools/reference/*.h) tests/check.h $(HEADERS)
+$(B)/tests/baselines/%.o: tests/baselines/%.c $(wildcard tests/baselines/*.h tools/baselines/*.h tools/reference/*.h) tests/airs.h tests/check.h $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -Itests -Itools/baselines -Itools/reference -c $< -o $@
 

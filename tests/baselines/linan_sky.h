@@ -7,56 +7,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "airs.h"
 #include "baseline.h"
 #include "check.h"
 #include "convert.h"
 
-#define DEGREE 0.017453292519943295
-
-static inline void fill4(float to[4], double a, double b, double c, double d) {
-    to[0] = (float)a;
-    to[1] = (float)b;
-    to[2] = (float)c;
-    to[3] = (float)d;
-}
-
 /// The figures of tools/bench/br17o.ini: clear, with ozone.
 static inline skv_atmosphere sky_clear(void) {
-    skv_atmosphere a;
-    memset(&a, 0, sizeof a);
-    a.radius_km = 6360;
-    a.top_km = 60;
-    a.bands = 4;
-    a.turbidity = 1;
-    fill4(a.wavelength_nm, 440, 520, 600, 680);
-    fill4(a.solar_irradiance, 1, 1, 1, 1);
-    fill4(a.albedo, 0.1, 0.1, 0.1, 0.1);
-    fill4(a.absorption_colour, 1, 1, 1, 1);
-    fill4(a.rayleigh_scattering_per_km, 0.033100006, 0.0169677948, 0.00957268519, 0.00580233938);
-    a.rayleigh.kind = SKV_PROFILE_EXPONENTIAL;
-    a.rayleigh.scale_height_km = 8;
-    fill4(a.aerosol_scattering_per_km, 0.003996, 0.003996, 0.003996, 0.003996);
-    fill4(a.aerosol_extinction_per_km, 0.00444, 0.00444, 0.00444, 0.00444);
-    a.aerosol.kind = SKV_PROFILE_EXPONENTIAL;
-    a.aerosol.scale_height_km = 1.2f;
-    a.aerosol_phase = SKV_PHASE_CS;
-    a.aerosol_g = 0.8f;
-    fill4(a.ozone_absorption_per_km, 8.501668e-05, 0.0011494986, 0.0026972106, 0.0006497166);
-    a.ozone.kind = SKV_PROFILE_TENT;
-    a.ozone.peak_km = 25;
-    a.ozone.half_width_km = 15;
+    skv_atmosphere a = air_clear(4);
+    fill(a.solar_irradiance, 1, 1, 1, 1);
+    fill(a.albedo, 0.1, 0.1, 0.1, 0.1);
     return a;
 }
 
 /// The figures of tools/bench/br16.ini: strong aerosol, no ozone.
 static inline skv_atmosphere sky_hazy(void) {
-    skv_atmosphere a = sky_clear();
-    fill4(a.albedo, 0.03, 0.055, 0.061, 0.035);
-    fill4(a.rayleigh_scattering_per_km, 0.02900713, 0.01461732, 0.008156124, 0.004908462);
-    fill4(a.aerosol_scattering_per_km, 0.05142882, 0.04499519, 0.04012802, 0.03630459);
-    fill4(a.aerosol_extinction_per_km, 0.06428603, 0.05624398, 0.05016003, 0.04538074);
-    a.aerosol_g = 0.7f;
-    a.ozone.kind = SKV_PROFILE_NONE;
+    skv_atmosphere a = air_hazy(4);
+    fill(a.solar_irradiance, 1, 1, 1, 1);
+    fill(a.albedo, 0.03, 0.055, 0.061, 0.035);
     return a;
 }
 
@@ -66,7 +34,7 @@ static inline skv_atmosphere sky_plain(double g) {
     a.aerosol_phase = SKV_PHASE_HG;
     a.aerosol_g = (float)g;
     a.ozone.kind = SKV_PROFILE_NONE;
-    fill4(a.ozone_absorption_per_km, 0, 0, 0, 0);
+    fill(a.ozone_absorption_per_km, 0, 0, 0, 0);
     memcpy(a.aerosol_extinction_per_km, a.aerosol_scattering_per_km, sizeof a.aerosol_extinction_per_km);
     return a;
 }

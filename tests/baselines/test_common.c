@@ -10,10 +10,10 @@ static skv_atmosphere air_of(int n) {
     static const float km[] = {0, 2.8f, 3, 4.5f, 5, 10}, density[] = {0.25f, 0.5f, 1, 1, 0.125f, 0};
     skv_atmosphere a = sky_clear();
     a.turbidity = 1.5f;
-    fill4(a.absorption_colour, 0.9, 0.8, 0.7, 0.6);
-    fill4(a.rayleigh_absorption_per_km, 0, 0.001, 0.003, 0.01);
-    fill4(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
-    fill4(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
+    fill(a.absorption_colour, 0.9, 0.8, 0.7, 0.6);
+    fill(a.rayleigh_absorption_per_km, 0, 0.001, 0.003, 0.01);
+    fill(a.dust_scattering_per_km, 0.03, 0.022, 0.016, 0.012);
+    fill(a.dust_extinction_per_km, 0.034, 0.025, 0.018, 0.0135);
     a.dust_phase = SKV_PHASE_HG;
     a.dust_g = -0.4f;
     if (n == 1) {

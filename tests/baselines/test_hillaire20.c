@@ -104,11 +104,11 @@ static void mean_light(const skv_atmosphere *air, double height_km, double sun_z
 static skv_atmosphere isotropic(void) {
     skv_atmosphere a = sky_plain(0);
     a.rayleigh.kind = SKV_PROFILE_NONE;
-    fill4(a.rayleigh_scattering_per_km, 0, 0, 0, 0);
+    fill(a.rayleigh_scattering_per_km, 0, 0, 0, 0);
     a.aerosol.scale_height_km = 8;
-    fill4(a.aerosol_scattering_per_km, 0.02 / 8, 0.05 / 8, 0.1 / 8, 0.2 / 8);
-    fill4(a.aerosol_extinction_per_km, 0.02 / 8, 0.05 / 8, 0.1 / 8, 0.2 / 8);
-    fill4(a.albedo, 0, 0, 0.3, 0);
+    fill(a.aerosol_scattering_per_km, 0.02 / 8, 0.05 / 8, 0.1 / 8, 0.2 / 8);
+    fill(a.aerosol_extinction_per_km, 0.02 / 8, 0.05 / 8, 0.1 / 8, 0.2 / 8);
+    fill(a.albedo, 0, 0, 0.3, 0);
     return a;
 }
 
@@ -220,7 +220,7 @@ static void against_successive_orders(void **state) {
 static void stays_bounded(void **state) {
     (void)state;
     skv_atmosphere air = sky_times(sky_plain(0.76), 25);
-    fill4(air.albedo, 1, 1, 1, 1);
+    fill(air.albedo, 1, 1, 1, 1);
     baseline_cost cost;
     hillaire20_sizes small = HILLAIRE20_SIZES;
     small.multiple_width = small.multiple_height = 16;

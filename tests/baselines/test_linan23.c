@@ -131,11 +131,11 @@ static void ground_bounce(void **state) {
     (void)state;
     skv_atmosphere air = sky_times(sky_plain(0.5), 1e-5);
     baseline_cost cost;
-    fill4(air.albedo, 0, 0, 0, 0);
+    fill(air.albedo, 0, 0, 0, 0);
     linan23_sizes sizes = LINAN23_SIZES;
     sizes.steps_inside = 3000;
     linan23 *black = build(&air, &sizes, 1, 0, 0, &cost);
-    fill4(air.albedo, 1, 1, 1, 1);
+    fill(air.albedo, 1, 1, 1, 1);
     linan23 *white = build(&air, &sizes, 1, 0, 0, &cost);
     const baseline_view view = sky_view(0, 60);
     const double up[3] = {0, 0, 1};

@@ -30,12 +30,12 @@ static skv_atmosphere odd_air(void) {
     a.rayleigh.kind = SKV_PROFILE_US76;
     a.rayleigh.us76_a = .07771971f;
     a.rayleigh.us76_b = 1.16364243f;
-    fill4(a.rayleigh_absorption_per_km, 0, 0.01, 0.1, 0);
+    fill(a.rayleigh_absorption_per_km, 0, 0.01, 0.1, 0);
     a.ozone.kind = SKV_PROFILE_LOGNORMAL;
     a.ozone.lognormal_mu = 3.22261f;
     a.ozone.lognormal_k = 5.55555555f;
-    fill4(a.dust_scattering_per_km, 0.15, 0.115, 0.09, 0);
-    fill4(a.dust_extinction_per_km, 0.16, 0.12, 0.095, 0);
+    fill(a.dust_scattering_per_km, 0.15, 0.115, 0.09, 0);
+    fill(a.dust_extinction_per_km, 0.16, 0.12, 0.095, 0);
     a.dust.kind = SKV_PROFILE_TABLE;
     a.dust.table_altitude_km = km;
     a.dust.table_density = density;

@@ -1,6 +1,6 @@
 # The planner: its errors and answers, and 20 random scenes that are built, counted and compared with path tracing.
 DEPS_TEST += valgrind gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user
-PLAN_TEST_OBJ := $(addprefix $(B)/tools/plan/,scene.o sample.o kind.o light.o error.o cost.o search.o metric.o)
+PLAN_TEST_OBJ := $(addprefix $(B)/tools/plan/,scene.o sample.o kind.o light.o error.o cost.o search.o) $(B)/tools/trade/metric.o
 
 $(B)/tests/plan/%.o: tests/plan/%.c $(wildcard tools/plan/*.h tools/skyvert/*.h tools/trade/*.h) $(HEADERS) tests/plan/build.mk
 	@mkdir -p $(@D)

@@ -43,7 +43,7 @@ file() {
 }
 leaves() { same "$1: left" "$(ls -A "$2")" "${3:-}"; }
 file "unknown section" 1 "unknown section \[planets\]; allowed are" 's/^\[planet\]/[planets]/'
-file "unknown key" 4 "unknown key height_km in \[observer\]; allowed: height_m, ground_m" 's/height_m/height_km/'
+file "unknown key" 4 "unknown key height_km in \[observer\]; allowed are height_m, ground_m" 's/height_m/height_km/'
 file "unknown preset" 2 "preset = venus: allowed are earth-clear" 's/mars/venus/'
 file "height too large" 4 "height_m = 2e6: allowed is a number from -12000 to 1000000, or two" 's/height_m = 100/height_m = 2e6/'
 file "range upside down" 4 "height_m = 200, 100: allowed" 's/height_m = 100/height_m = 200, 100/'
@@ -82,9 +82,58 @@ for f in src/core/*.c; do
     gcc -std=c99 -fsyntax-only -Wall -Wextra -Wpedantic -Werror '-DSKV_CONFIG_FILE="skv_config.h"' -I"$work/out" -Iinclude -Isrc "$f" 2>"$work/gcc" ||
         same "$f with the header" "$(head -n 2 "$work/gcc")" ""
 done
+# cheapest CASE BOUND: nothing that could still be dropped is cheaper and within the bound. (Less than three samples is not planned.)
+cheapest() {
+    same "$1: the cheapest" "$(awk -v bound="$2" '/^samples/ { n = $2 }
+        /^kept/ && !(/last sample/ && n == 3) { sub(/ *\(.*/, ""); rows++; if ($(NF - 1) <= bound && $NF > 0) print "without: " $0 }
+        END { if (!rows) print "no rows" }' "$work/stdout")" ""
+}
+cheapest "a plan" 25
+# Bytes are those of the build that was measured for what was chosen: species, bands, and a table or none.
+read -r lanes model frame flash_single flash s0 s1 s2 < <(grep -F "{\"cortex-m4f\", $(value SKV_BANDS), $(($(value SKV_PLAN_TERMS) & 15))," tools/plan/costs_data.h |
+    awk -F'[{}, ]+' '{ print $5, $6, $7, $8, $9, $10, $11, $12; exit }')
+case "$(value SKV_PLAN_TABLE) $(value SKV_PLAN_GRID)" in
+"0 0") want="$flash_single $s0" ;; *0) want="$flash $s1" ;; *) want="$flash $s2" ;;
+esac
+same "flash, stack, model, frame" "$(awk '/^(flash|stack)/ { printf "%s ", $2 } /^ram/ { m = $5 + 0; f = $7 + 0 } END { print m, f }' "$work/first")" "$want $model $frame"
+[ "$lanes" = 1 ] || same "lanes of a Cortex-M4F" "$lanes" 1
+# A program with the header's buffers builds the table, and none of them can be shorter. (In the whole library: without what the
+# header leaves out of it.)
+grep -E '^#define SKV_PLAN_[A-Z]+' "$work/out/skv_config.h" >"$work/buffers.h"
+cat >"$work/buffers.c" <<'END'
+#include "buffers.h"
+#include "skyvert/skyvert.h"
+static float table[SKV_PLAN_TABLE_BYTES / 4], work[SKV_PLAN_WORK_BYTES / 4];
+static skv_status build(const skv_model *model, const skv_table_spec *spec, size_t less, size_t less_work) {
+    return skv_table_build((skv_table *)(void *)table, sizeof table - less, work, sizeof work - less_work, model, spec);
+}
+int main(void) {
+    static skv_model model;
+    skv_atmosphere air;
+    skv_table_spec spec;
+    if (skv_atmosphere_preset(&air, SKV_PRESET_MARS, BANDS) != SKV_OK || skv_model_build(&model, &air) != SKV_OK ||
+        skv_table_spec_for(&spec, &model, SKV_PLAN_TABLE == 1 ? SKV_TABLE_SMALL : SKV_TABLE_ACCURATE) != SKV_OK)
+        return 1;
+    if (build(&model, &spec, 4, 0) == SKV_OK || build(&model, &spec, 0, 4) == SKV_OK)
+        return 2;
+    return build(&model, &spec, 0, 0) == SKV_OK ? 0 : 3;
+}
+END
+run /dev/null "${CC:-gcc}" -DBANDS="$(value SKV_BANDS)" -Iinclude "$work/buffers.c" "$B/libskyvert.a" -o "$work/buffers"
+[ $status -eq 0 ] || fails "the header's buffers" "want that it compiles"
+run /dev/null "$work/buffers"
+[ $status -eq 0 ] || fails "the header's buffers" "want status 0"
 does "the same again" /dev/null $plan --scene "$work/small.ini" --max-error 0.25 $ask
 same "the same answer twice" "$(cat "$work/stdout")" "$(cat "$work/first")"
 same "the same header twice" "$(cat "$work/out/skv_config.h")" "$(cat "$work/first.h")"
+# Twice the vertices, beyond those that are looked at one by one: twice the instructions, but for the frame's own.
+for vertices in 2048 4096; do
+    does "$vertices vertices" /dev/null $plan --scene "$work/small.ini" --max-error 25% --vertices $vertices --target cortex-m4f --out "$work/out"
+    cp "$work/stdout" "$work/$vertices"
+done
+same "the same choice" "$(grep -E '^(light|samples)' "$work/2048")" "$(grep -E '^(light|samples)' "$work/4096")"
+same "twice the instructions" "$(awk '/^instructions/ { n = $2; for (i = 1; i < NF; i++) if ($i == "is") n -= $(i + 1); all[++k] = n }
+    END { r = all[2] / all[1]; print (r > 1.95 && r < 2.01 ? "twice" : r) }' "$work/2048" "$work/4096")" twice
 does "a faster target" /dev/null $plan --scene "$work/small.ini" --max-error 25% $ask --instructions-per-us 1000
 same "its rate" "$(grep -c '^rate 1000 instructions per us (as given)' "$work/stdout")" 1
 
@@ -121,5 +170,8 @@ same "one line" "$(wc -l <"$work/stderr")" 1
 for s in training-day dusk-airliner cockpit-m4f; do
     run /dev/null timeout 60 $plan --scene tools/plan/$s.ini --max-error 20% --vertices 512 --target x86-avx2 --out "$work/out"
     [ $status -eq 0 ] || fails "$s" "want status 0"
+    cheapest "$s" 20
+    # What is seen through the air, terrain or stars, needs its transmittance.
+    same "$s: transmittance" "$(value SKV_OUT_TRANSMITTANCE)" "$(grep -cE '^(terrain|stars) = yes' tools/plan/$s.ini)"
 done
 finish

@@ -103,6 +103,12 @@ errors() { python3 -c 'import csv, sys; print([(r["configuration"], r["sun"], r[
 same "resumed: the same errors" "$(errors "$again/trade.csv" | cksum)" "$(errors "$out/trade.csv" | cksum)"
 run /dev/null $quick
 same "the third time nothing is left to do" "$(grep -o '[0-9]* taken over' "$work/stdout")" "9 taken over"
+# Another program may give other results: what an older one kept does not count.
+cp "$skyvert" "$work/other"
+printf x >>"$work/other"
+run /dev/null "$work/other" trade --quick --instructions no --out "$again"
+[ $status -eq 0 ] || fails "another program" "want status 0"
+same "another program takes nothing over" "$(grep -o "[0-9]* taken over" "$work/stdout")" "0 taken over"
 
 # ---- bad input: status 2, one line, nothing written
 refuses "no such option" 2 'unknown option --fast' /dev/null "$skyvert" trade --fast

@@ -1,5 +1,5 @@
 # `skyvert plan`: what of the library a scene needs. tools/skyvert/plan.c is the command; the rest is here and linked in.
-PLAN_OBJ  := $(addprefix $(B)/tools/plan/,scene.o sample.o kind.o light.o error.o cost.o search.o report.o metric.o)
+PLAN_OBJ  := $(addprefix $(B)/tools/plan/,scene.o sample.o kind.o light.o error.o cost.o search.o report.o) $(B)/tools/trade/metric.o
 PORT_OBJ  += $(PLAN_OBJ)
 # What of the command the programs here use.
 PLAN_BASE := $(addprefix $(B)/tools/skyvert/,errors.o options.o output.o progress.o csv.o ini.o ini_document.o table_file.o)
@@ -9,10 +9,6 @@ DEPS_RUN  += libinih-dev
 $(B)/tools/plan/%.o: tools/plan/%.c $(wildcard tools/plan/*.h tools/skyvert/*.h tools/reference/*.h tools/trade/*.h) $(HEADERS) tools/plan/build.mk
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) $(CORE_EXTRA) -I. -Itools/reference -c $< -o $@
-# By a name of its own: the trade's folder has its rules.
-$(B)/tools/plan/metric.o: tools/trade/metric.c tools/trade/metric.h
-	@mkdir -p $(@D)
-	$(CC) $(TOOL_FLAGS) -c $< -o $@
 
 PLAN_SAMPLE := $(addprefix $(B)/tools/plan/,scene.o sample.o)
 $(B)/plan-truth: $(B)/tools/plan/truth.o $(PLAN_SAMPLE) $(PLAN_BASE) $(B)/tools/reference/read_ini.o $(B)/libreference.a $(LIB)

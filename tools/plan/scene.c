@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,94 +13,31 @@ const char *const plan_preset_names[] = {"earth-clear", "earth-hazy", "mars",  "
                                          "earth-dense", "earth-x25",  "titan", "earth-smoke", NULL};
 
 typedef struct reading {
-    const ini_document *document;
+    ini_taker ini;
     plan_scene *scene;
-    int result; ///< 0, or the exit status after the error line; nothing more is read then
 } reading;
 
-static void fail_line(reading *r, int line, const char *format, ...) SKV_PRINTF(3, 4);
-
-static void fail_line(reading *r, int line, const char *format, ...) {
-    char text[600];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (!r->result)
-        r->result = fail_usage("%.200s:%d: %s", r->document->path, line, text);
-}
-
-// --- names ---
-
-static const struct {
-    const char *section;
-    const char *keys[7];
-} known[] = {
+static const ini_known known[] = {
     {"planet", {"preset", "atmosphere"}},
     {"observer", {"height_m", "ground_m"}},
     {"sun", {"elevation_deg"}},
     {"air", {"visibility_km"}},
     {"view", {"elevation_deg", "terrain", "terrain_km", "terrain_share", "stars"}},
 };
-enum { KNOWN = sizeof known / sizeof known[0] };
-
-static int find_known(const char *section) {
-    for (int i = 0; i < KNOWN; i++)
-        if (strcmp(known[i].section, section) == 0)
-            return i;
-    return -1;
-}
-
-static void check_key(reading *r, const ini_entry *e) {
-    const int i = find_known(e->section);
-    char allowed[300] = "";
-    for (int k = 0; i >= 0 && k < 7 && known[i].keys[k]; k++) {
-        if (strcmp(known[i].keys[k], e->name) == 0)
-            return;
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", known[i].keys[k]);
-    }
-    fail_line(r, e->line, "unknown key %.60s in [%.40s]; allowed: %s", e->name, e->section, allowed);
-}
-
-static void check_names(reading *r) {
-    const ini_document *const d = r->document;
-    for (size_t i = 0; i < d->sections; i++)
-        if (find_known(d->section[i].name) < 0)
-            fail_line(r, d->section[i].line,
-                      "unknown section [%.40s]; allowed are [planet], [observer], [sun], [air] and [view]",
-                      d->section[i].name);
-    for (size_t i = 0; i < d->entries && !r->result; i++)
-        check_key(r, &d->entry[i]);
-}
 
 // --- values ---
-
-/// @return NULL where there is none, after an error line if it is needed
-static const ini_entry *find(reading *r, const char *section, const char *key, bool needed) {
-    if (r->result)
-        return NULL;
-    const ini_entry *const e = ini_find(r->document, section, key);
-    const ini_section *const s = ini_find_section(r->document, section);
-    if (!e && needed && !s)
-        fail_line(r, r->document->lines > 0 ? r->document->lines : 1, "section [%s] is missing: %s is needed", section,
-                  key);
-    else if (!e && needed)
-        fail_line(r, s->line, "[%s] lacks %s; it is needed here", section, key);
-    return e;
-}
 
 /// One number or two with a comma between, the first not above the second.
 static void take_range(reading *r, const char *section, const char *key, bool needed, plan_range allowed,
                        plan_range *range) {
-    const ini_entry *const e = find(r, section, key, needed);
+    const ini_entry *const e = ini_want(&r->ini, section, key, needed);
     double low, high;
     if (!e)
         return;
     const char *const comma = strchr(e->value, ',');
     char *const first = strdup(e->value);
     if (!first) {
-        r->result = fail_job("out of memory");
+        r->ini.result = fail_job("out of memory");
         return;
     }
     if (comma)
@@ -110,30 +46,30 @@ static void take_range(reading *r, const char *section, const char *key, bool ne
     free(first);
     high = good && !comma ? low : high;
     if (!good || low < allowed.low || high > allowed.high || low > high)
-        fail_line(r, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g, or two, the lower one first", key,
-                  e->value, allowed.low, allowed.high);
+        ini_fail(&r->ini, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g, or two, the lower one first",
+                 key, e->value, allowed.low, allowed.high);
     else
         *range = (plan_range){low, high};
 }
 
 static void take_number(reading *r, const char *section, const char *key, plan_range allowed, double *value) {
-    const ini_entry *const e = find(r, section, key, false);
+    const ini_entry *const e = ini_want(&r->ini, section, key, false);
     double v;
     if (!e)
         return;
     if (!parse_number(e->value, &v) || v < allowed.low || v > allowed.high)
-        fail_line(r, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g", key, e->value, allowed.low,
-                  allowed.high);
+        ini_fail(&r->ini, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g", key, e->value, allowed.low,
+                 allowed.high);
     else
         *value = v;
 }
 
 static void take_flag(reading *r, const char *section, const char *key, bool *value) {
-    const ini_entry *const e = find(r, section, key, false);
+    const ini_entry *const e = ini_want(&r->ini, section, key, false);
     if (!e)
         return;
     if (strcmp(e->value, "yes") != 0 && strcmp(e->value, "no") != 0)
-        fail_line(r, e->line, "%s = %.60s: allowed is yes or no", key, e->value);
+        ini_fail(&r->ini, e->line, "%s = %.60s: allowed is yes or no", key, e->value);
     *value = strcmp(e->value, "yes") == 0;
 }
 
@@ -150,25 +86,21 @@ static void take_preset(reading *r, const ini_entry *e) {
         const size_t used = strlen(allowed);
         snprintf(allowed + used, sizeof allowed - used, "%s%s", i == 0 ? "" : ", ", plan_preset_names[i]);
     }
-    fail_line(r, e->line, "preset = %.60s: allowed are %s", e->value, allowed);
+    ini_fail(&r->ini, e->line, "preset = %.60s: allowed are %s", e->value, allowed);
 }
 
 /// The file is looked for beside the scene file.
 static void take_atmosphere(reading *r, const ini_entry *e) {
-    const char *const from = r->document->path, *const slash = strrchr(from, '/');
-    const int folder = slash && e->value[0] != '/' ? (int)(slash - from) + 1 : 0;
-    const size_t size = (size_t)folder + strlen(e->value) + 1;
     if (*e->value == '\0') {
-        fail_line(r, e->line, "atmosphere: allowed is the name of a file");
+        ini_fail(&r->ini, e->line, "atmosphere: allowed is the name of a file");
         return;
     }
-    char *const path = malloc(size);
+    char *const path = ini_beside(r->ini.document, e->value);
     if (!path) {
-        r->result = fail_job("out of memory");
+        r->ini.result = fail_job("out of memory");
         return;
     }
-    snprintf(path, size, "%.*s%s", folder, from, e->value);
-    r->result = atmosphere_load(&r->scene->file, path);
+    r->ini.result = atmosphere_load(&r->scene->file, path);
     const char *const name = strrchr(path, '/');
     snprintf(r->scene->planet_text, sizeof r->scene->planet_text, "%.60s", name ? name + 1 : path);
     r->scene->planet = r->scene->planet_text;
@@ -177,18 +109,19 @@ static void take_atmosphere(reading *r, const ini_entry *e) {
 }
 
 static void take_planet(reading *r) {
-    const ini_entry *const preset = find(r, "planet", "preset", false);
-    const ini_entry *const file = find(r, "planet", "atmosphere", false);
-    if (r->result)
+    const ini_entry *const preset = ini_want(&r->ini, "planet", "preset", false);
+    const ini_entry *const file = ini_want(&r->ini, "planet", "atmosphere", false);
+    if (r->ini.result)
         return;
     if (preset && file)
-        fail_line(r, file->line, "atmosphere: allowed is it or preset, and preset stands in line %d", preset->line);
+        ini_fail(&r->ini, file->line, "atmosphere: allowed is it or preset, and preset stands in line %d",
+                 preset->line);
     else if (preset)
         take_preset(r, preset);
     else if (file)
         take_atmosphere(r, file);
     else
-        (void)find(r, "planet", "preset", true);
+        (void)ini_want(&r->ini, "planet", "preset", true);
 }
 
 // --- optics ---
@@ -239,17 +172,19 @@ void plan_air(const plan_scene *scene, int which, int bands, skv_atmosphere *air
 static void take_visibility(reading *r) {
     skv_atmosphere air;
     take_range(r, "air", "visibility_km", false, (plan_range){0.05, 1000}, &r->scene->visibility_km);
-    const ini_entry *const e = find(r, "air", "visibility_km", false);
-    if (r->result || !e)
+    const ini_entry *const e = ini_want(&r->ini, "air", "visibility_km", false);
+    if (r->ini.result || !e)
         return;
     plan_scene as_is = *r->scene;
     as_is.visibility_km = (plan_range){0, 0};
     plan_air(&as_is, 0, 4, &air);
     if (!(plan_particles_per_km(&air) > 0))
-        fail_line(r, e->line, "visibility_km: this air has no particles on the ground that could set it; leave it out");
+        ini_fail(&r->ini, e->line,
+                 "visibility_km: this air has no particles on the ground that could set it; leave it out");
     else if (r->scene->visibility_km.high > PLAN_KOSCHMIEDER / fmax(plan_gas_per_km(&air), 1e-9))
-        fail_line(r, e->line, "visibility_km = %.60s: allowed is up to %.4g, where this air would have no particles",
-                  e->value, PLAN_KOSCHMIEDER / plan_gas_per_km(&air));
+        ini_fail(&r->ini, e->line,
+                 "visibility_km = %.60s: allowed is up to %.4g, where this air would have no particles", e->value,
+                 PLAN_KOSCHMIEDER / plan_gas_per_km(&air));
 }
 
 // --- the whole ---
@@ -263,24 +198,25 @@ static void take_view(reading *r) {
     take_number(r, "view", "terrain_share", (plan_range){0, 0.9}, &s->terrain_share);
     const char *const only[] = {"terrain_km", "terrain_share"};
     for (int i = 0; i < 2; i++) {
-        const ini_entry *const e = find(r, "view", only[i], false);
+        const ini_entry *const e = ini_want(&r->ini, "view", only[i], false);
         if (e && !s->terrain)
-            fail_line(r, e->line, "%s: allowed with terrain = yes", only[i]);
+            ini_fail(&r->ini, e->line, "%s: allowed with terrain = yes", only[i]);
     }
 }
 
 static void take_all(reading *r) {
     plan_scene *const s = r->scene;
-    check_names(r);
+    ini_check_names(&r->ini, known, sizeof known / sizeof *known);
     take_planet(r);
     take_range(r, "observer", "height_m", true, (plan_range){-12000, 1e6}, &s->height_m);
     take_number(r, "observer", "ground_m", (plan_range){-12000, 12000}, &s->ground_m);
     take_range(r, "sun", "elevation_deg", true, (plan_range){-12, 90}, &s->sun_deg);
     take_visibility(r);
     take_view(r);
-    const ini_entry *const height = find(r, "observer", "height_m", true);
+    const ini_entry *const height = ini_want(&r->ini, "observer", "height_m", true);
     if (height && s->height_m.low < s->ground_m)
-        fail_line(r, height->line, "height_m = %.60s: allowed is from ground_m, %g, up", height->value, s->ground_m);
+        ini_fail(&r->ini, height->line, "height_m = %.60s: allowed is from ground_m, %g, up", height->value,
+                 s->ground_m);
 }
 
 int plan_scene_load(plan_scene *scene, const char *path) {
@@ -293,16 +229,16 @@ int plan_scene_load(plan_scene *scene, const char *path) {
     fclose(stream);
     if (failed)
         return failed;
-    reading r = {.document = &document, .scene = scene};
+    reading r = {.ini.document = &document, .scene = scene};
     take_all(&r);
     if (!scene->terrain)
         scene->terrain_share = 0;
     ini_free(&document);
-    if (r.result)
+    if (r.ini.result)
         plan_scene_free(scene);
     else if (scene->planet != scene->planet_text && scene->preset >= 0)
         scene->planet = plan_preset_names[scene->preset];
-    return r.result;
+    return r.ini.result;
 }
 
 void plan_scene_free(plan_scene *scene) {

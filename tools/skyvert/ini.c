@@ -2,7 +2,6 @@
 #include "ini.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,30 +10,12 @@
 #include "table_file.h"
 
 typedef struct reading {
-    const ini_document *document;
+    ini_taker ini;
     atmosphere_file *file;
     int tables;
-    int result; ///< 0, or the exit status after the error line; nothing more is read then
 } reading;
 
-static void fail_line(reading *r, int line, const char *format, ...) SKV_PRINTF(3, 4);
-
-static void fail_line(reading *r, int line, const char *format, ...) {
-    char text[600];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (!r->result)
-        r->result = fail_usage("%.200s:%d: %s", r->document->path, line, text);
-}
-
-// --- names ---
-
-static const struct {
-    const char *section;
-    const char *keys[13];
-} known[] = {
+static const ini_known known[] = {
     {"planet", {"radius_km", "top_km", "albedo"}},
     {"bands", {"wavelength_nm", "solar_irradiance"}},
     {"rayleigh", {"scattering_per_km", "absorption_per_km", "profile", "scale_height_km", "a", "b", "table"}},
@@ -45,55 +26,17 @@ static const struct {
       "half_width_km", "mu", "k", "table"}},
     {"ozone", {"absorption_per_km", "profile", "peak_km", "half_width_km", "mu", "k", "table"}},
 };
-enum { KNOWN = sizeof known / sizeof known[0] };
-
-static int find_known(const char *section) {
-    for (int i = 0; i < KNOWN; i++)
-        if (strcmp(known[i].section, section) == 0)
-            return i;
-    return -1;
-}
-
-static void check_key(reading *r, const ini_entry *e) {
-    const int i = find_known(e->section);
-    char allowed[300] = "";
-    for (int k = 0; i >= 0 && k < 13 && known[i].keys[k]; k++) {
-        if (strcmp(known[i].keys[k], e->name) == 0)
-            return;
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", known[i].keys[k]);
-    }
-    fail_line(r, e->line, "unknown key %.60s in [%.40s]; allowed are %s", e->name, e->section, allowed);
-}
 
 static void check_names(reading *r) {
-    const ini_document *const d = r->document;
-    for (size_t i = 0; i < d->sections; i++)
-        if (find_known(d->section[i].name) < 0)
-            fail_line(
-                r, d->section[i].line,
-                "unknown section [%.40s]; allowed are [planet], [bands], [rayleigh], [aerosol], [dust] and [ozone]",
-                d->section[i].name);
-    for (size_t i = 0; i < d->entries && !r->result; i++)
-        check_key(r, &d->entry[i]);
+    const ini_document *const d = r->ini.document;
+    ini_check_names(&r->ini, known, sizeof known / sizeof *known);
     for (int i = 0; i < 3; i++)
         if (!ini_find_section(d, known[i].section))
-            fail_line(r, d->lines > 0 ? d->lines : 1,
-                      "section [%s] is missing; needed are [planet], [bands] and [rayleigh]", known[i].section);
+            ini_fail(&r->ini, d->lines > 0 ? d->lines : 1,
+                     "section [%s] is missing; needed are [planet], [bands] and [rayleigh]", known[i].section);
 }
 
 // --- values ---
-
-/// @return NULL where there is none, after an error line if it is needed
-static const ini_entry *find(reading *r, const char *section, const char *key, bool needed) {
-    if (r->result)
-        return NULL;
-    const ini_entry *const e = ini_find(r->document, section, key);
-    const ini_section *const s = ini_find_section(r->document, section);
-    if (!e && needed)
-        fail_line(r, s ? s->line : 1, "[%s] lacks %s; it is needed here", section, key);
-    return e;
-}
 
 typedef struct range {
     double low, high;
@@ -102,14 +45,14 @@ typedef struct range {
 static bool check_number(reading *r, const ini_entry *e, const char *text, range allowed, double *value) {
     if (parse_number(text, value) && *value >= allowed.low && *value <= allowed.high)
         return true;
-    fail_line(r, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g", e->name, text, allowed.low,
-              allowed.high);
+    ini_fail(&r->ini, e->line, "%s = %.60s: allowed is a number from %.10g to %.10g", e->name, text, allowed.low,
+             allowed.high);
     return false;
 }
 
 /// A value that has a default stays as it is where the key is missing.
 static void take_number(reading *r, const char *section, const char *key, bool needed, range allowed, float *value) {
-    const ini_entry *const e = find(r, section, key, needed);
+    const ini_entry *const e = ini_want(&r->ini, section, key, needed);
     double v;
     if (e && check_number(r, e, e->value, allowed, &v))
         *value = (float)v;
@@ -132,11 +75,11 @@ static int parse_list(reading *r, const ini_entry *e, char *copy, range allowed,
     const int n = split_list(copy, items), bands = r->file->atmosphere.bands;
     if (bands ? n != bands : n != 3 && n != 4) {
         if (bands)
-            fail_line(r, e->line, "%s: %s%d values; allowed are %d, one per band, with commas between", e->name,
-                      n == 5 ? "more than " : "", n == 5 ? 4 : n, bands);
+            ini_fail(&r->ini, e->line, "%s: %s%d values; allowed are %d, one per band, with commas between", e->name,
+                     n == 5 ? "more than " : "", n == 5 ? 4 : n, bands);
         else
-            fail_line(r, e->line, "%s: %s%d values; allowed are 3 or 4, with commas between", e->name,
-                      n == 5 ? "more than " : "", n == 5 ? 4 : n);
+            ini_fail(&r->ini, e->line, "%s: %s%d values; allowed are 3 or 4, with commas between", e->name,
+                     n == 5 ? "more than " : "", n == 5 ? 4 : n);
         return 0;
     }
     for (int i = 0; i < n; i++)
@@ -147,12 +90,12 @@ static int parse_list(reading *r, const ini_entry *e, char *copy, range allowed,
 
 static int take_doubles(reading *r, const char *section, const char *key, bool needed, range allowed,
                         double values[4]) {
-    const ini_entry *const e = find(r, section, key, needed);
+    const ini_entry *const e = ini_want(&r->ini, section, key, needed);
     if (!e)
         return 0;
     char *const copy = strdup(e->value);
     if (!copy) {
-        r->result = fail_job("out of memory");
+        r->ini.result = fail_job("out of memory");
         return 0;
     }
     const int n = parse_list(r, e, copy, allowed, values);
@@ -170,7 +113,7 @@ static void take_list(reading *r, const char *section, const char *key, bool nee
 
 /// @return the place in names, or -1 after an error line
 static int take_choice(reading *r, const char *section, const char *key, const char *const names[]) {
-    const ini_entry *const e = find(r, section, key, true);
+    const ini_entry *const e = ini_want(&r->ini, section, key, true);
     char allowed[200] = "";
     for (int i = 0; e && names[i]; i++) {
         if (strcmp(e->value, names[i]) == 0)
@@ -179,36 +122,25 @@ static int take_choice(reading *r, const char *section, const char *key, const c
         snprintf(allowed + used, sizeof allowed - used, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
     }
     if (e)
-        fail_line(r, e->line, "%s = %.60s: allowed is %s", key, e->value, allowed);
+        ini_fail(&r->ini, e->line, "%s = %.60s: allowed is %s", key, e->value, allowed);
     return -1;
 }
 
 // --- profiles ---
 
-/// `name` as seen from the folder of the file that names it.
-static char *resolve(const char *from, const char *name) {
-    const char *const slash = strrchr(from, '/');
-    const int folder = slash && name[0] != '/' ? (int)(slash - from) + 1 : 0;
-    const size_t size = (size_t)folder + strlen(name) + 1;
-    char *const path = malloc(size);
-    if (path)
-        snprintf(path, size, "%.*s%s", folder, from, name);
-    return path;
-}
-
 static void take_table(reading *r, const char *section, skv_profile *profile) {
-    const ini_entry *const e = find(r, section, "table", true);
+    const ini_entry *const e = ini_want(&r->ini, section, "table", true);
     if (!e)
         return;
     if (*e->value == '\0') {
-        fail_line(r, e->line, "table: allowed is the name of a file");
+        ini_fail(&r->ini, e->line, "table: allowed is the name of a file");
         return;
     }
-    char *const path = resolve(r->document->path, e->value);
+    char *const path = ini_beside(r->ini.document, e->value);
     density_table table;
-    r->result = path ? table_read(&table, path) : fail_job("out of memory");
+    r->ini.result = path ? table_read(&table, path) : fail_job("out of memory");
     free(path);
-    if (r->result)
+    if (r->ini.result)
         return;
     r->file->memory[r->tables++] = table.altitude_km;
     r->file->memory[r->tables++] = table.density;
@@ -265,14 +197,14 @@ static const struct {
 
 /// A known key that the chosen profile does not read is no error, but it is said; it must still be a number.
 static void note_unread(reading *r, const char *section, skv_profile_kind kind) {
-    for (size_t i = 0; i < sizeof readers / sizeof readers[0] && !r->result; i++) {
-        const ini_entry *const e = ini_find(r->document, section, readers[i].key);
+    for (size_t i = 0; i < sizeof readers / sizeof readers[0] && !r->ini.result; i++) {
+        const ini_entry *const e = ini_find(r->ini.document, section, readers[i].key);
         double v;
         if (!e || readers[i].kinds >> kind & 1u)
             continue;
         if (strcmp(e->name, "table") != 0 && !check_number(r, e, e->value, (range){-3.4e38, 3.4e38}, &v))
             return;
-        fail_usage("%.200s:%d: note: %s is not read with this profile", r->document->path, e->line, e->name);
+        fail_usage("%.200s:%d: note: %s is not read with this profile", r->ini.document->path, e->line, e->name);
     }
 }
 
@@ -304,9 +236,9 @@ static void take_bands(reading *r) {
         a->wavelength_nm[i] = (float)nm[i];
         snprintf(r->file->band_name[i], sizeof r->file->band_name[i], "%.10g", nm[i]);
         if (i > 0 && !(a->wavelength_nm[i] > a->wavelength_nm[i - 1]))
-            fail_line(r, find(r, "bands", "wavelength_nm", true)->line,
-                      "wavelength_nm: %s does not follow %s; allowed are ascending values", r->file->band_name[i],
-                      r->file->band_name[i - 1]);
+            ini_fail(&r->ini, ini_want(&r->ini, "bands", "wavelength_nm", true)->line,
+                     "wavelength_nm: %s does not follow %s; allowed are ascending values", r->file->band_name[i],
+                     r->file->band_name[i - 1]);
     }
     a->bands = n;
     take_list(r, "bands", "solar_irradiance", true, (range){0, 1e6}, a->solar_irradiance);
@@ -316,9 +248,9 @@ static void take_planet(reading *r) {
     skv_atmosphere *const a = &r->file->atmosphere;
     take_number(r, "planet", "radius_km", true, (range){1, 100000}, &a->radius_km);
     take_number(r, "planet", "top_km", true, (range){.1, 1000}, &a->top_km);
-    if (!r->result && a->top_km > a->radius_km)
-        fail_line(r, find(r, "planet", "top_km", true)->line, "top_km = %g: allowed is at most radius_km, %g",
-                  (double)a->top_km, (double)a->radius_km);
+    if (!r->ini.result && a->top_km > a->radius_km)
+        ini_fail(&r->ini, ini_want(&r->ini, "planet", "top_km", true)->line,
+                 "top_km = %g: allowed is at most radius_km, %g", (double)a->top_km, (double)a->radius_km);
     take_list(r, "planet", "albedo", true, (range){0, 1}, a->albedo);
 }
 
@@ -337,11 +269,11 @@ static void take_particles(reading *r, const char *section, float scattering[4],
     static const char *const phases[] = {"henyey-greenstein", "cornette-shanks", NULL};
     take_list(r, section, "scattering_per_km", true, coefficient, scattering);
     take_list(r, section, "extinction_per_km", true, coefficient, extinction);
-    for (int i = 0; i < r->file->atmosphere.bands && !r->result; i++)
+    for (int i = 0; i < r->file->atmosphere.bands && !r->ini.result; i++)
         if (extinction[i] < scattering[i])
-            fail_line(r, find(r, section, "extinction_per_km", true)->line,
-                      "extinction_per_km = %g in band %d: allowed is scattering_per_km, %g, or more",
-                      (double)extinction[i], i + 1, (double)scattering[i]);
+            ini_fail(&r->ini, ini_want(&r->ini, section, "extinction_per_km", true)->line,
+                     "extinction_per_km = %g in band %d: allowed is scattering_per_km, %g, or more",
+                     (double)extinction[i], i + 1, (double)scattering[i]);
     *phase = take_choice(r, section, "phase", phases) == 1 ? SKV_PHASE_CS : SKV_PHASE_HG;
     take_number(r, section, "g", true, (range){-.9999, .9999}, g);
 }
@@ -377,11 +309,11 @@ static void take_all(reading *r) {
     take_bands(r);
     take_planet(r);
     take_rayleigh(r);
-    if (ini_find_section(r->document, "aerosol"))
+    if (ini_find_section(r->ini.document, "aerosol"))
         take_aerosol(r);
-    if (ini_find_section(r->document, "dust"))
+    if (ini_find_section(r->ini.document, "dust"))
         take_dust(r);
-    if (ini_find_section(r->document, "ozone"))
+    if (ini_find_section(r->ini.document, "ozone"))
         take_ozone(r);
 }
 
@@ -401,12 +333,12 @@ int atmosphere_read(atmosphere_file *file, FILE *stream, const char *path) {
     const int failed = ini_read(&document, stream, path);
     if (failed)
         return failed;
-    reading r = {.document = &document, .file = file};
+    reading r = {.ini.document = &document, .file = file};
     take_all(&r);
     ini_free(&document);
-    if (r.result)
+    if (r.ini.result)
         atmosphere_free(file);
-    return r.result;
+    return r.ini.result;
 }
 
 int atmosphere_load(atmosphere_file *file, const char *path) {

@@ -3,10 +3,9 @@
 #include "ini_document.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "command.h"
 
 void ini_free(ini_document *document) {
     for (size_t i = 0; i < document->entries; i++) {
@@ -33,6 +32,79 @@ const ini_entry *ini_find(const ini_document *document, const char *section, con
         if (strcmp(document->entry[i].section, section) == 0 && strcmp(document->entry[i].name, name) == 0)
             return &document->entry[i];
     return NULL;
+}
+
+void ini_fail(ini_taker *r, int line, const char *format, ...) {
+    char text[600];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (!r->result)
+        r->result = fail_usage("%.200s:%d: %s", r->document->path, line, text);
+}
+
+static const ini_known *find_known(const ini_known *known, int n, const char *section) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(known[i].section, section) == 0)
+            return &known[i];
+    return NULL;
+}
+
+static void check_section(ini_taker *r, const ini_section *section, const ini_known *known, int n) {
+    char allowed[300] = "";
+    for (int i = 0; i < n; i++) {
+        const size_t used = strlen(allowed);
+        snprintf(allowed + used, sizeof allowed - used, "%s[%s]",
+                 i == 0      ? ""
+                 : i + 1 < n ? ", "
+                             : " and ",
+                 known[i].section);
+    }
+    if (!find_known(known, n, section->name))
+        ini_fail(r, section->line, "unknown section [%.40s]; allowed are %s", section->name, allowed);
+}
+
+static void check_key(ini_taker *r, const ini_entry *e, const ini_known *known) {
+    char allowed[300] = "";
+    for (int k = 0; known && known->keys[k]; k++) {
+        if (strcmp(known->keys[k], e->name) == 0)
+            return;
+        const size_t used = strlen(allowed);
+        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", known->keys[k]);
+    }
+    ini_fail(r, e->line, "unknown key %.60s in [%.40s]; allowed are %s", e->name, e->section, allowed);
+}
+
+void ini_check_names(ini_taker *r, const ini_known *known, int n) {
+    const ini_document *const d = r->document;
+    for (size_t i = 0; i < d->sections; i++)
+        check_section(r, &d->section[i], known, n);
+    for (size_t i = 0; i < d->entries && !r->result; i++)
+        check_key(r, &d->entry[i], find_known(known, n, d->entry[i].section));
+}
+
+const ini_entry *ini_want(ini_taker *r, const char *section, const char *key, bool needed) {
+    if (r->result)
+        return NULL;
+    const ini_entry *const e = ini_find(r->document, section, key);
+    const ini_section *const s = ini_find_section(r->document, section);
+    if (!e && needed && !s)
+        ini_fail(r, r->document->lines > 0 ? r->document->lines : 1, "section [%s] is missing: %s is needed", section,
+                 key);
+    else if (!e && needed)
+        ini_fail(r, s->line, "[%s] lacks %s; it is needed here", section, key);
+    return e;
+}
+
+char *ini_beside(const ini_document *document, const char *name) {
+    const char *const from = document->path, *const slash = strrchr(from, '/');
+    const int folder = slash && name[0] != '/' ? (int)(slash - from) + 1 : 0;
+    const size_t size = (size_t)folder + strlen(name) + 1;
+    char *const path = malloc(size);
+    if (path)
+        snprintf(path, size, "%.*s%s", folder, from, name);
+    return path;
 }
 
 #if SKV_HAVE_INIH

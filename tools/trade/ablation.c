@@ -190,7 +190,7 @@ static void lay_dome(double height_km, float direction[VERTICES][3]) {
 static int count_sky(const trade_study_air *air, const study_sky *sky, part what) {
     static float direction[VERTICES][3], radiance[VERTICES][4];
     int status = TRADE_STUDY_DONE;
-    study_count_on();
+    callgrind_on();
     for (int k = 0; status == TRADE_STUDY_DONE && k < TRADE_SCENES; k++) {
         char label[STUDY_LABEL];
         float sun[3];
@@ -199,12 +199,12 @@ static int count_sky(const trade_study_air *air, const study_sky *sky, part what
         lay_dome(height, direction);
         trade_direction(sun, trade_sun_zenith_deg[k % TRADE_SUNS], 0);
         status = study_radiance(sky, height, sun, 8, (const float(*)[3])direction, radiance); // symbols are bound now
-        study_count_begin();
+        callgrind_begin();
         if (status == TRADE_STUDY_DONE)
             status = study_radiance(sky, height, sun, VERTICES, (const float(*)[3])direction, radiance);
-        study_count_end(label);
+        callgrind_end(label);
     }
-    study_count_off();
+    callgrind_off();
     return status;
 }
 
