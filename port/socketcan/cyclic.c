@@ -129,9 +129,7 @@ skv_can_status skv_socketcan_cyclic_stop(skv_can_bus *bus, uint32_t id, uint8_t 
         return SKV_CAN_BAD_ARGUMENT;
     const message head = {.opcode = TX_DELETE, .can_id = task->id};
     *task = s->task[--s->tasks];
-    if (send(s->cyclic, &head, sizeof head, MSG_DONTWAIT) == (ssize_t)sizeof head)
-        return SKV_CAN_OK;
-    return skv_socketcan_failed(s, errno);
+    return bcm_write(s, s->cyclic, &head);
 }
 
 // One frame with an empty mask: contents never count as a change, so the kernel speaks up at a timeout, and when the id

@@ -15,3 +15,5 @@ test-build: $(B)/tests/cockpit/reader
 $(B)/tests/cockpit/reader: tests/cockpit/reader.c tools/cockpit/vertices.h Makefile
 	@mkdir -p $(@D)
 	$(CC) $(TOOL_FLAGS) -I. $< -lrt -o $@
+include tests/cockpit/sanitize.mk
+TEST_SCRIPT += tests/cockpit/sanitize.sh

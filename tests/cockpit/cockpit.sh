@@ -31,6 +31,7 @@ refused "--rate nan: allowed" 2 --rate nan
 refused "--vertices 63: allowed is a whole number from 64 to 65536" 2 --vertices 63
 refused "--interface" 2 --interface aNameThatIsTooLong
 refused "option --speed needs a value" 2 --speed
+refused "--speed goes with --replay or --fake" 2 --speed 2
 refused "--fake, not both" 2 --fake --replay x
 refused "No such file" 2 --replay "$work/none.log"
 refused "No such file" 2 --config "$work/none.ini"
@@ -40,6 +41,8 @@ ini "[can]" "interfaces = can0"
 refused "bad.ini:2: [can] has no interfaces: allowed is interface, node, transmit" 2 --config "$work/bad.ini"
 ini "[sky]" "air = mars"
 refused "bad.ini:2: air = mars: allowed is earth-clear, earth-hazy" 2 --config "$work/bad.ini"
+ini "[sky]" "geoid_m = 101"
+refused "bad.ini:2: geoid_m = 101: allowed is a number from -120 to 100" 2 --config "$work/bad.ini"
 ini "[knobs]" "" "visibility_per_click = 1"
 refused "bad.ini:3: visibility_per_click = 1: allowed is a number from 1.01 to 10" 2 --config "$work/bad.ini"
 ini "[gpio]" "debounce_ms = 2000"
@@ -48,7 +51,13 @@ ini "[lamp]" "x = 1"
 refused "no section [lamp]: allowed is can, sky, knobs, gpio" 2 --config "$work/bad.ini"
 printf '(1.000000) can0 123#00\nnonsense\n' >"$work/bad.log"
 timeout 20 "$cockpit" --replay "$work/bad.log" >/dev/null 2>"$work/err"
-grep -q "bad.log:2: column" "$work/err" || fail "a log's bad line: $(cat "$work/err")"
+[ $? = 2 ] && grep -q "bad.log:2: column" "$work/err" || fail "a log's bad line: $(cat "$work/err")"
+printf '(1.000000) can0 123#00\n(1.1000' >"$work/bad.log"
+timeout 20 "$cockpit" --replay "$work/bad.log" >/dev/null 2>"$work/err"
+[ $? = 0 ] && grep -q "bad.log:2: the log ends within this line" "$work/err" || fail "a log that was cut: $(cat "$work/err")"
+printf '(5.000000) c 123#00\n(1700000000.100000) c 123#02\n' >"$work/bad.log"
+timeout 20 "$cockpit" --replay "$work/bad.log" --duration 0.3 >/dev/null 2>"$work/err"
+[ $? = 0 ] && grep -q "bad.log:2: 1699999995 s behind the frame before: was the clock set" "$work/err" || fail "a clock that was set: $(cat "$work/err")"
 # A kernel without CAN: one line, status 3. With CAN: there is no such interface.
 "$cockpit" --interface nocan9 >/dev/null 2>"$work/err"
 got=$?
@@ -59,11 +68,20 @@ case $got in
 esac
 [ "$(wc -l <"$work/err")" = 1 ] || fail "no CAN: not one line"
 
+# No room for the vertices: said at the start, not by a SIGBUS in the middle.
+if unshare -m mount -t tmpfs -o size=64k tmpfs /dev/shm 2>/dev/null; then
+    unshare -m sh -c 'mount -t tmpfs -o size=64k tmpfs /dev/shm && exec "$0" --fake --duration 1 --no-terminal --shm full' "$cockpit" >/dev/null 2>"$work/err"
+    [ $? = 1 ] && grep -q "shm /full: .* bytes: No space left on device" "$work/err" || fail "no room for the vertices: $(cat "$work/err")"
+else
+    echo "note: not tried: a full /dev/shm (no right to mount one)"
+fi
+
 # --- a flight: 14 s of its log, 19 s of the cockpit, so that at last nothing comes
 "$B/skyvert-sim" "$root/tools/flight/dusk-lszh-loww.csv" --start 2024-03-20T17:10:00Z --duration 14 --visibility-m 30000 --log "$work/flight.log" 2>"$work/err" ||
     fail "no log: $(cat "$work/err")"
 # The configuration that is delivered, but with lines that no machine has: a line each, and it runs on.
 sed 's/gpiochip0:/gpiochip99:/' "$root/tools/cockpit/cockpit.ini" >"$work/cockpit.ini"
+: >"$work/lines"
 "$cockpit" --config "$work/cockpit.ini" --replay "$work/flight.log" --duration 19 --shm "$shm" --png "$work/sky.png" --exr "$work/sky.exr" --stats "$work/stats" \
     >"$work/lines" 2>"$work/err" &
 pid=$!
@@ -84,6 +102,16 @@ for name in can_missing can_duplicate can_out_of_order can_out_of_range can_not_
 done
 [ "$(value can_accepted)" -gt 400 ] || fail "accepted: $(value can_accepted)"
 tail -n 1 "$work/lines" | grep -q '^held .*lamps .1 .*stale ".*Latitude' || fail "at last: $(tail -n 1 "$work/lines")"
+
+# --- a bus that says heights above the ellipsoid alone: less what the file says of the sea
+grep -v ' 40E#' "$work/flight.log" | sed 's/ 14C#/ 40E#/' >"$work/gps.log"
+for geoid in 0 40; do
+    ini "[sky]" "geoid_m = $geoid"
+    "$cockpit" --config "$work/bad.ini" --replay "$work/gps.log" --speed 20 --duration 1.5 --no-terminal >"$work/gps$geoid" 2>"$work/err" || fail "geoid: $(cat "$work/err")"
+done
+height() { tail -n 1 "$1" | sed 's/.* height \([-0-9.]*\) .*/\1/'; }
+awk -v a="$(height "$work/gps0")" -v b="$(height "$work/gps40")" 'BEGIN {exit !(a - b > 39.8 && a - b < 40.2)}' ||
+    fail "geoid_m = 40: height $(height "$work/gps40"), without $(height "$work/gps0")"
 
 # --- the snapshots, read by OpenImageIO
 python3 "$here/cockpit_picture.py" "$work/sky.exr" "$work/sky.png" "$work/lines" || fail "snapshots"

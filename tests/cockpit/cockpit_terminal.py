@@ -60,7 +60,7 @@ for number, size in enumerate(SIZES):
         fail(f"{size}: {len(lines)} lines, the longest of {max(len(line) for line in lines)}")
     if size[1] >= 15:
         words = plain(whole[-1])
-        for wanted in ("Sun      azimuth", "Height   ", "UTC      2026-03-20 05:", "Bus      made-up flight", "Stale    nothing", "NE", "▀"):
+        for wanted in ("Sun      azimuth", "Place    46.", " N  8.", "Height   ", "ft) above the sea", "UTC      2026-03-20 05:", "Bus      made-up flight", "Stale    nothing", "NE", "▀"):
             if wanted not in words:
                 fail(f"{size}: no '{wanted}'")
         colours = set(re.findall(r"48;2;(\d+);(\d+);(\d+)m", whole[-1]))

@@ -15,7 +15,6 @@ import time
 import canmatrix.formats
 
 
-
 def read_log(path):
     rows = []
     for line in open(path, encoding="ascii"):
@@ -77,6 +76,8 @@ def check_frame(check, flight, stamp, name, values):
     elif name == "Date":
         day = time.gmtime(stamp)
         check.near("date", values["DateCentury"] * 100 + values["DateYearOfCentury"] + values["DateMonth"] / 100 + values["DateDay"] / 1e4, day.tm_year + day.tm_mon / 100 + day.tm_mday / 1e4, 1e-9)
+    elif name in ("BodyPitchAngle", "BodyRollAngle"):  # their values: test_sim_flight.c
+        check.near(name, values[name], 0, 45 if name == "BodyPitchAngle" else 60)
     elif name in ("GroundSpeed", "TrueTrack", "AltitudeRate"):
         check_motion(check, flight, stamp, name, values[name])
     elif name in ("SunAzimuth", "SunElevation", "MoonAzimuth", "MoonElevation"):
@@ -185,7 +186,7 @@ def check_log(database, cycles, log, flight_path, node):
     seconds = rows[-1][0] - rows[0][0]
     for identity, count in counts.items():
         check.near("frames of an id", count, seconds / cycles[identity], 1.5)
-    check.near("kinds of messages", len(counts) in (19, 20), True, 0)  # height above the ellipsoid: with a geoid
+    check.near("kinds of messages", len(counts) in (21, 22), True, 0)  # height above the ellipsoid: with a geoid
     for stamp, name, values in by_canmatrix(database, rows):
         check_frame(check, flight, stamp, name, values)
     figures = ", ".join(f"{what} {error:.1e}" for what, error in sorted(check.worst.items()) if error)

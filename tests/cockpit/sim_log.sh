@@ -20,6 +20,16 @@ cmp "$job/whole.log" "$job/again.log" || fail "the same flight gave other bytes"
 cmp "$job/whole.log" "$job/replay.log" || fail "a log of a log differs from it"
 "$sim" $flight --log - --speed max 2>/dev/null | cmp - "$job/whole.log" || fail "the standard output differs from the file"
 rm "$job/again.log" "$job/replay.log"
+# A board that logs while its clock is set: said, with a way on.
+printf '(5.000000) c 123#00\n(5.100000) c 123#01\n(1700000000.100000) c 123#02\n' >"$job/set.log"
+"$sim" "$job/set.log" --log "$job/mended.log" --speed max 2>"$job/said" || fail "a clock that was set: $(cat "$job/said")"
+grep -q "set.log:3: 1699999995 s behind the frame before: .* --start 1699999995 begins here" "$job/said" || fail "a clock that was set: $(cat "$job/said")"
+"$sim" "$job/set.log" --log - --start 1699999995 2>/dev/null | grep -q '123#02' || fail "--start behind the gap"
+# A log whose writer was killed ends within a line: that line is left out, which is said.
+head -c 100010 "$job/whole.log" >"$job/cut.log"
+"$sim" "$job/cut.log" --log "$job/mended.log" --speed max 2>"$job/said" || fail "a log cut in a line: $(cat "$job/said")"
+grep -q "cut.log:$(($(wc -l <"$job/cut.log") + 1)): the log ends within this line, which is left out" "$job/said" || fail "a log cut in a line: $(cat "$job/said")"
+cmp <(head -n "$(wc -l <"$job/cut.log")" "$job/whole.log") "$job/mended.log" || fail "a log cut in a line: others are missing"
 figure=$(wc -l <"$job/whole.log")
 echo "figure: log of the sample flight: $figure frames, $(stat -c %s "$job/whole.log") bytes"
 
@@ -46,6 +56,19 @@ kill -TERM $pid
 wait $pid || fail "stopped by SIGTERM: status $?"
 grep -q "frames of .* s written" "$job/said" || fail "no summary: $(cat "$job/said")"
 [ "$(stat -c %s "$job/stopped.log")" -gt 1000 ] && cmp -n "$(stat -c %s "$job/stopped.log")" "$job/stopped.log" "$job/start.log" || fail "a stopped log is not the beginning of a whole one"
+# A reader that takes nothing for a while puts it behind its pace: a signal counts all the same.
+mkfifo "$job/pipe"
+"$sim" $flight --log - --speed 1000 >"$job/pipe" 2>/dev/null &
+pid=$!
+exec 3<"$job/pipe"
+sleep 0.3
+head -c 40000 <&3 >/dev/null # now it is behind, and writes until the pipe is full again
+sleep 0.3
+kill -TERM $pid
+written=$(wc -c <&3)
+exec 3<&-
+wait $pid || fail "stopped behind its pace: status $?"
+[ "$written" -lt 200000 ] || fail "stopped behind its pace it still wrote $written bytes" # a pipe holds 65536
 # As fast as can be: stopped, it leaves nothing.
 "$sim" $flight --log "$job/none.log" --speed max --duration 1e7 2>/dev/null &
 pid=$!

@@ -223,6 +223,53 @@ static void never_torn(void **state) {
     cockpit_sky_end(&sky);
 }
 
+// What a reader finds while a frame is half written: the memory that the vertices come from is looked at on the way.
+static unsigned char *half;
+static size_t half_bytes;
+static const skv_vertices_header *half_header;
+static struct {
+    int faults;
+    uint32_t sequence, latest;
+} seen;
+
+static void half_way(int signal_number) {
+    (void)signal_number;
+    const unsigned char *const slot = (const unsigned char *)half_header + half_header->slots_offset;
+    seen.faults++;
+    seen.sequence = *(const uint32_t *)(const void *)slot;
+    seen.latest = half_header->latest;
+    mprotect(half, half_bytes, PROT_READ | PROT_WRITE);
+}
+
+static void odd_while_it_is_written(void **state) {
+    (void)state;
+    cockpit_sky sky;
+    cockpit_share share;
+    const skv_vertices_moment moment = {0};
+    struct sigaction before, action = {.sa_handler = half_way};
+    begin(&sky, 512);
+    skv_vertex *const own = sky.vertex;
+    half_bytes = sizeof *own * (size_t)sky.vertices;
+    half = mmap(NULL, half_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(half != MAP_FAILED);
+    memcpy(half, own, half_bytes);
+    assert_int_equal(cockpit_share_open(&share, name, &sky), 0);
+    half_header = (const skv_vertices_header *)(const void *)share.map;
+    sky.vertex = (skv_vertex *)(void *)half;
+    for (int i = 0; i < 3; i++)
+        (void)cockpit_share_publish(&share, &sky, &moment);
+    sigaction(SIGSEGV, &action, &before);
+    mprotect(half, half_bytes, PROT_NONE);
+    (void)cockpit_share_publish(&share, &sky, &moment); // the first slot again
+    sigaction(SIGSEGV, &before, NULL);
+    assert_true(seen.faults == 1 && seen.sequence == 3 && seen.latest == 3);
+    assert_int_equal(half_header->latest, 1);
+    sky.vertex = own;
+    munmap(half, half_bytes);
+    cockpit_share_close(&share);
+    cockpit_sky_end(&sky);
+}
+
 // The visibility is turned while frames go on: the old air is shown until the new one's table is done; nothing grows.
 static void air_is_rebuilt(void **state) {
     (void)state;
@@ -281,8 +328,13 @@ static void any_sky_is_finite(void **state) {
 int main(void) {
     snprintf(name, sizeof name, "/skyvert-test-%d", (int)getpid());
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_core), cmocka_unit_test(sizes_and_names), cmocka_unit_test(one_writer),
-        cmocka_unit_test(never_torn),      cmocka_unit_test(air_is_rebuilt),  cmocka_unit_test(any_sky_is_finite),
+        cmocka_unit_test(equals_the_core),
+        cmocka_unit_test(sizes_and_names),
+        cmocka_unit_test(one_writer),
+        cmocka_unit_test(never_torn),
+        cmocka_unit_test(odd_while_it_is_written),
+        cmocka_unit_test(air_is_rebuilt),
+        cmocka_unit_test(any_sky_is_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

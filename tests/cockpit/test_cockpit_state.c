@@ -60,23 +60,27 @@ static void sun_of_a_published_example(void **state) {
                0.02); // a float's steps are .008 s
 }
 
+// At 1 and at 60 times the pace.
 static void midnight_in_either_order(void **state) {
     (void)state;
-    for (int date_first = 0; date_first <= 1; date_first++) {
+    for (int kind = 0; kind < 4; kind++) {
+        const bool date_first = kind % 2 == 1;
+        const int pace = kind < 2 ? 1 : 60;
         cockpit_state s;
         cockpit_now now;
         cockpit_state_begin(&s, 60);
         for (int i = 0; i < 20; i++) {
             const int64_t t = second * i, later = t + 400000000;
-            const int of_day = (86400 - 10 + i) % 86400, day = i < 10 ? 31 : 1, month = i < 10 ? 12 : 1,
-                      year = i < 10 ? 24 : 25;
+            const int of_day = (86400 - 10 * pace + pace * i + pace / 3) % 86400, day = i < 10 ? 31 : 1,
+                      month = i < 10 ? 12 : 1, year = i < 10 ? 24 : 25;
             if (date_first)
                 bytes(&s, SKV_CAS_DATE, day, month, 20, year, t);
             bytes(&s, SKV_CAS_UTC, of_day / 3600, of_day / 60 % 60, of_day % 60, 0, t);
             cockpit_state_now(&s, t, &now);
-            if (i > 0) {
+            if (i > (pace == 1 ? 0 : 3)) { // the pace is found out first
                 const double got = 86400.0 * now.utc.day + (double)now.utc.seconds;
-                check_near("across midnight, s", got, 86400.0 * 9132 - 10 + i, 0.1); // 2025-01-01 is day 9132
+                const double want = 86400.0 * 9132 + pace * (i - 10) + pace / 3; // 2025-01-01 is day 9132
+                check_near("across midnight, s", got, want, pace == 1 ? 0.1 : 0.5);
             }
             if (!date_first)
                 bytes(&s, SKV_CAS_DATE, day, month, 20, year, later);
@@ -101,13 +105,77 @@ static void heights_in_their_order(void **state) {
     cockpit_state_now(&s, 4 * second, &now);
     assert_int_equal(now.datum, SKV_CAS_SEA);
     check_near("above the sea", now.height_m, 1000, 0.01); // what is left of the way from 900: exp(-4/.25)
-    for (int i = 0; i < 40; i++) {                         // the better one goes stale
-        number(&s, SKV_CAS_GPS_HEIGHT, 1050, second / 10 * (41 + i));
-        cockpit_state_now(&s, second / 10 * (41 + i), &now);
+}
+
+// A climb at 15 m/s; the sea is 47.3 m above the ellipsoid. GPS heights come 40 ms before the other ones, so each is of
+// another moment.
+static void climb(cockpit_state *s, int from, int until, bool sea, bool gps) {
+    for (int i = from; i < until; i++) {
+        const int64_t t = second / 10 * i;
+        if (gps)
+            number(s, SKV_CAS_GPS_HEIGHT, 1047.3 + 1.5 * i, t);
+        if (sea)
+            number(s, SKV_CAS_TRUE_ALTITUDE, 1000 + 15 * (0.1 * i + 0.04), t + 40000000);
     }
-    cockpit_state_now(&s, 8 * second, &now);
+}
+
+static void check_height(cockpit_state *s, int at, double want, double tolerance) {
+    cockpit_now now;
+    cockpit_state_now(s, second / 10 * at, &now);
+    check_near("height, m", now.height_m, want, tolerance);
+}
+
+// Above the ellipsoid alone: what the file says of the geoid is taken off.
+static void ellipsoid_heights(void **state) {
+    (void)state;
+    cockpit_state s;
+    cockpit_now now;
+    cockpit_state_begin(&s, 60);
+    s.geoid_m = 47.3;
+    climb(&s, 0, 100, false, true);
+    cockpit_state_now(&s, 99 * second / 10, &now);
     assert_int_equal(now.datum, SKV_CAS_ELLIPSOID);
-    check_near("above the ellipsoid", now.height_m, 1050, 0.01);
+    check_near("geoid, m", now.geoid_m, 47.3, 1e-9);
+    check_height(&s, 99, 1000 + 1.5 * 99, 0.01); // floats of 1148 m have steps of 1e-4
+}
+
+// Both kinds, then the one above the ellipsoid alone: no step, and what was learnt fades to the file's in ten minutes.
+static void change_over_makes_no_step(void **state) {
+    (void)state;
+    cockpit_state s;
+    cockpit_now now;
+    double before = 1000 + 1.5 * 99;
+    cockpit_state_begin(&s, 60);
+    climb(&s, 0, 100, true, true);
+    check_height(&s, 100, 1000 + 1.5 * 100, 0.01);
+    assert_true(s.learnt > 0);
+    check_near("learnt, m", s.learnt_m, 47.3, 0.05); // the first ones are of 15 m/s that it does not know yet
+    for (int i = 100; i < 160; i++) {
+        cockpit_state_now(&s, second / 10 * i, &now);
+        climb(&s, i, i + 1, false, true);
+        cockpit_state_now(&s, second / 10 * i, &now);
+        check_near("step of a climb of 1.5 m", now.height_m - before, 1.5, 1.6); // it waits a frame
+
+        before = now.height_m;
+    }
+    assert_int_equal(now.datum, SKV_CAS_ELLIPSOID);
+    check_height(&s, 159, 1000 + 1.5 * 159, 0.5); // 47.3 * 6/600
+    climb(&s, 160, 6100, false, true);
+    check_height(&s, 6099, 1000 + 1.5 * 6099 + 47.3 * (1 - 0.36788), 0.5); // exp(-1) of it is left
+    climb(&s, 6100, 6200, true, true);
+    cockpit_state_now(&s, 620 * second, &now);
+    assert_int_equal(now.datum, SKV_CAS_SEA);
+    check_height(&s, 6200, 1000 + 1.5 * 6200, 0.1);
+}
+
+// One of the two is put elsewhere a frame before the other: nothing is learnt from that.
+static void elsewhere_is_not_learnt(void **state) {
+    (void)state;
+    cockpit_state s;
+    cockpit_state_begin(&s, 60);
+    climb(&s, 0, 50, true, true);
+    number(&s, SKV_CAS_GPS_HEIGHT, 9047.3, 5 * second);
+    check_near("learnt, m", s.learnt_m, 47.3, 0.1);
 }
 
 static void stale_is_held_and_said(void **state) {
@@ -288,6 +356,9 @@ int main(void) {
         cmocka_unit_test(sun_of_a_published_example),
         cmocka_unit_test(midnight_in_either_order),
         cmocka_unit_test(heights_in_their_order),
+        cmocka_unit_test(ellipsoid_heights),
+        cmocka_unit_test(change_over_makes_no_step),
+        cmocka_unit_test(elsewhere_is_not_learnt),
         cmocka_unit_test(stale_is_held_and_said),
         cmocka_unit_test(sun_by_the_bus),
         cmocka_unit_test(knob_button_toggle),

@@ -1,150 +1,9 @@
-/// skyvert-sim on a fake bus: what arrives, when, and what happens when the bus does not work. Time is turned by hand.
-#include "check.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "port/socketcan/skv_can_fake.h"
-#include "tools/cockpit/sim_player.h"
-#include "tools/cockpit/sim_stream.h"
+/// skyvert-sim on a fake bus: what arrives, when, and what happens when the bus does not work.
+#include "sim_rig.h"
 #include "tools/cockpit/sim_wire.c" // white box: the check sequence
 
-#define MS     ((int64_t)1000000)
-#define SECOND (1000 * MS)
-
-// ---- a flight due north along a meridian: the latitude is a straight line in time
-
-#define LAT0_DEG     47.0
-#define LAT_DEG_S    0.002 // 222 m/s
-#define HEIGHT_M_S   10.0
-#define FLIGHT_S     600.0
-#define LONGITUDE    8.5
-#define START_HEIGHT 1000.0
-
-static void write_flight(char *path) {
-    strcpy(path, "/tmp/skyvert-sim-test-XXXXXX");
-    const int fd = mkstemp(path);
-    FILE *const file = fd >= 0 ? fdopen(fd, "w") : NULL;
-    assert_true(file != NULL);
-    fputs("utc,lat_deg,lon_deg,height_m\n", file);
-    for (int t = 0; t <= (int)FLIGHT_S; t += 10)
-        fprintf(file, "2024-03-20T16:%02d:%02dZ,%.9f,%.1f,%.1f\n", t / 60, t % 60, LAT0_DEG + LAT_DEG_S * t, LONGITUDE,
-                START_HEIGHT + HEIGHT_M_S * t);
-    fclose(file);
-}
-
-// ---- the rig: a sender on a fake net, and a receiver that keeps what it hears
-
-#define KEPT 40000
-
-typedef struct rig {
-    skv_can_fake_net *net;
-    skv_can_bus *listener;
-    sim_options options;
-    sim_flight flight;
-    sim_bus bus;
-    sim_stream stream;
-    sim_player player;
-    bool plays;
-    int64_t now_ns, wake_ns, jump_ns; // jump_ns: how far the clock that can be set is off
-    int opens_fail;                   // so many more
-    skv_can_received kept[KEPT];
-    int n_kept;
-} rig;
-
-static skv_can_status open_fake(void *context, skv_can_bus **bus) {
-    rig *const r = context;
-    if (r->opens_fail > 0) {
-        r->opens_fail--;
-        return SKV_CAN_NO_INTERFACE;
-    }
-    const skv_can_options all = {.receive_all = 1, .receive_errors = 1, .receive_own = r->plays};
-    return skv_can_fake_open(bus, r->net, &all);
-}
-
-static rig *new_rig(double speed) {
-    rig *const r = calloc(1, sizeof *r);
-    const skv_can_options all = {.receive_all = 1};
-    char path[64];
-    assert_true(r != NULL);
-    write_flight(path);
-    r->options = (sim_options){.speed = speed, .duration_s = FLIGHT_S, .node = 7, .flight = {.visibility_m = 12000}};
-    assert_int_equal(sim_flight_open(&r->flight, path, &r->options.flight), 0);
-    unlink(path);
-    r->net = skv_can_fake_new();
-    assert_int_equal(skv_can_fake_open(&r->listener, r->net, &all), SKV_CAN_OK);
-    r->bus = (sim_bus){.open = open_fake, .context = r, .name = "fake", .quiet = true, .self = {7, 1, 2}};
-    return r;
-}
-
-static void begin_stream(rig *r) {
-    assert_int_equal(sim_bus_begin(&r->bus, r->now_ns), SKV_CAN_OK);
-    r->stream = (sim_stream){.options = &r->options, .flight = &r->flight, .bus = &r->bus, .sender = {.node = 7}};
-    sim_stream_begin(&r->stream, r->now_ns);
-}
-
-static void free_rig(rig *r) {
-    sim_bus_end(&r->bus);
-    skv_can_close(r->listener);
-    skv_can_fake_free(r->net);
-    sim_flight_close(&r->flight);
-    free(r);
-}
-
-/// One millisecond. The fake net's stamps are its own clock; jump_ns makes ours differ from it as a clock that was set.
-static bool step(rig *r) {
-    r->now_ns += MS;
-    skv_can_fake_advance(r->net, r->now_ns);
-    const sim_now now = {r->now_ns, r->now_ns + r->jump_ns};
-    sim_bus_receive(&r->bus, now, r->plays ? sim_player_heard : sim_stream_heard,
-                    r->plays ? (void *)&r->player : (void *)&r->stream);
-    const int64_t bus_ns = sim_bus_tick(&r->bus, r->now_ns);
-    if (r->now_ns >= r->wake_ns)
-        r->wake_ns = r->plays ? sim_player_tick(&r->player, r->now_ns) : sim_stream_tick(&r->stream, r->now_ns);
-    (void)bus_ns;
-    while (r->n_kept < KEPT && skv_can_receive(r->listener, &r->kept[r->n_kept], 1) == 1)
-        r->n_kept++;
-    return r->wake_ns != 0;
-}
-
-static void run_for(rig *r, double seconds) {
-    const int64_t end = r->now_ns + (int64_t)(seconds * 1e9);
-    while (r->now_ns < end && step(r))
-        ;
-}
-
-static int32_t long_of(const skv_can_frame *f) {
-    return (int32_t)((uint32_t)f->data[4] << 24 | (uint32_t)f->data[5] << 16 | (uint32_t)f->data[6] << 8 | f->data[7]);
-}
-
-static float float_of(const skv_can_frame *f) {
-    const int32_t bits = long_of(f);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-/// Latitudes from frame `from` on are those of the moments they arrived; codes go up by one unless `gaps`.
-static int check_latitudes(const rig *r, int from, bool gaps) {
-    int n = 0, last = -1;
-    for (int i = from; i < r->n_kept; i++) {
-        const skv_can_frame *f = &r->kept[i].frame;
-        if (f->id != 1036)
-            continue;
-        const double at_s = 1e-9 * (double)(r->kept[i].time_ns - r->stream.start_ns) * r->options.speed;
-        // A step of this test is 1 ms of the bus; a count is 1e-7 deg.
-        check_near("latitude", long_of(f) * 1e-7, LAT0_DEG + LAT_DEG_S * at_s,
-                   1e-7 + LAT_DEG_S * 0.0011 * r->options.speed);
-        if (!gaps && last >= 0 && f->data[3] != (uint8_t)(last + 1))
-            fail_msg("message code: got %d after %d at %.3f s", f->data[3], last, at_s);
-        last = f->data[3];
-        n++;
-    }
-    return n;
-}
+/// The fake bus's own, under one that a test puts in its place.
+static const skv_can_ops *under;
 
 // ---- on the wire
 
@@ -263,6 +122,93 @@ static void test_utc(void **state) {
         check_near("UTC", 60.0 * f->data[5] + f->data[6], at_s, 0.012); // planned 8 ms behind it, steps of 1 ms
     }
     assert_int_equal(times, 10);
+    free_rig(r);
+}
+
+/// Begun late, and a clockwork that falls behind: the UTC comes back to the second, and none is lost or said twice.
+static uint32_t slow_us;
+static skv_can_status start_late(skv_can_bus *bus, const skv_can_cyclic *cyclic) {
+    skv_can_cyclic slow = *cyclic;
+    slow.period_us += slow_us;
+    return under->cyclic_start(bus, &slow);
+}
+
+static void test_utc_late(void **state) {
+    (void)state;
+    rig *const r = new_rig(1.0);
+    int times = 0, second = -1;
+    begin_stream(r);
+    skv_can_ops ops = *r->bus.bus->ops;
+    under = r->bus.bus->ops;
+    ops.cyclic_start = start_late;
+    slow_us = 2000;
+    r->bus.bus->ops = &ops;
+    r->wake_ns = 300 * MS; // held up
+    run_for(r, 100.0);
+    for (int i = 0; i < r->n_kept; i++) {
+        const skv_can_frame *f = &r->kept[i].frame;
+        const double at_s = 1e-9 * (double)(r->kept[i].time_ns - r->stream.start_ns);
+        if (f->id != 1200)
+            continue;
+        const int said = 60 * f->data[5] + f->data[6];
+        if (times++ > 0 && said != second + 1)
+            fail_msg("UTC: %d s after %d", said, second);
+        second = said;
+        if (times > 1) // 50 ms, a period more, and a step of this test
+            check_near("UTC", said, at_s - 0.03, 0.035);
+    }
+    assert_true(times >= 99);
+    assert_int_equal(r->stream.lost, 0);
+    free_rig(r);
+}
+
+/// The program is held up for seconds while its UTC is being put right: no message code comes twice.
+static void test_utc_held_up(void **state) {
+    (void)state;
+    rig *const r = new_rig(1.0);
+    int code = -1;
+    begin_stream(r);
+    skv_can_ops ops = *r->bus.bus->ops;
+    under = r->bus.bus->ops;
+    ops.cyclic_start = start_late;
+    slow_us = 60000;
+    r->bus.bus->ops = &ops;
+    for (int i = 0; i < 5; i++) {
+        run_for(r, 2.3);
+        for (int64_t until = r->now_ns + 3300 * MS; r->now_ns < until; r->now_ns += MS)
+            skv_can_fake_advance(r->net, r->now_ns);
+    }
+    run_for(r, 2.0);
+    for (int i = 0; i < r->n_kept; i++) {
+        if (r->kept[i].frame.id != 1200)
+            continue;
+        if (code >= 0 && r->kept[i].frame.data[3] != (uint8_t)(code + 1))
+            fail_msg("message code %d behind %d", r->kept[i].frame.data[3], code);
+        code = r->kept[i].frame.data[3];
+    }
+    assert_true(code > 20);
+    free_rig(r);
+}
+
+/// What no waiting helps against is said, once, and tried on.
+static int refusals;
+static skv_can_status refuse(skv_can_bus *bus, const skv_can_cyclic *cyclic) {
+    return refusals-- > 0 ? SKV_CAN_DENIED : under->cyclic_start(bus, cyclic);
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    rig *const r = new_rig(1.0);
+    begin_stream(r);
+    skv_can_ops ops = *r->bus.bus->ops;
+    under = r->bus.bus->ops;
+    ops.cyclic_start = refuse;
+    r->bus.bus->ops = &ops;
+    refusals = 500;
+    run_for(r, 0.1);
+    assert_true(r->bus.refused);
+    run_for(r, 5.0);
+    assert_true(check_latitudes(r, 0, false) > 30);
     free_rig(r);
 }
 
@@ -474,125 +420,16 @@ static void test_identification(void **state) {
     free_rig(r);
 }
 
-// ---- replay
-
-#define REPLAYED 2000
-
-static sim_recording recording_of(sim_record *records) {
-    for (int i = 0; i < REPLAYED; i++) {
-        records[i] = (sim_record){.after_ns = i * 2 * MS, .frame = {.id = (uint32_t)(i % 0x700), .length = 4}};
-        records[i].frame.data[0] = (uint8_t)(i >> 8);
-        records[i].frame.data[1] = (uint8_t)i;
-    }
-    return (sim_recording){.records = records, .count = REPLAYED};
-}
-
-/// Every frame arrives once and in order, whatever the bus does.
-static void check_replay(const rig *r) {
-    for (int i = 0; i < r->n_kept; i++)
-        if (r->kept[i].frame.data[0] != (uint8_t)(i % REPLAYED >> 8) ||
-            r->kept[i].frame.data[1] != (uint8_t)(i % REPLAYED))
-            fail_msg("frame %d of the replay is number %d", i,
-                     r->kept[i].frame.data[0] << 8 | r->kept[i].frame.data[1]);
-}
-
-static rig *new_player(sim_recording *recording, double speed) {
-    rig *const r = new_rig(speed);
-    r->plays = true;
-    r->options.duration_s = 1e6;
-    assert_int_equal(sim_bus_begin(&r->bus, 0), SKV_CAN_OK);
-    r->player = (sim_player){.options = &r->options, .recording = recording, .bus = &r->bus};
-    sim_player_begin(&r->player, 0);
-    return r;
-}
-
-/// As the kernel does it: at bus-off a frame is taken, and thrown away.
-static const skv_can_ops *under;
-static skv_can_status send_like_the_kernel(skv_can_bus *bus, const skv_can_frame *frame) {
-    skv_can_state now;
-    (void)under->state(bus, &now);
-    return now.controller == SKV_CAN_BUS_OFF ? SKV_CAN_OK : under->send(bus, frame);
-}
-
-/// Most frames within a millisecond.
-static int longest_burst(const rig *r) {
-    int most = 0;
-    for (int i = 0, n = 0; i < r->n_kept; i++) {
-        n = i > 0 && r->kept[i].time_ns - r->kept[i - 1].time_ns < MS ? n + 1 : 1;
-        most = n > most ? n : most;
-    }
-    return most;
-}
-
-static void test_replay(void **state) {
-    (void)state;
-    static sim_record records[REPLAYED];
-    sim_recording recording = recording_of(records);
-    rig *r = new_player(&recording, 1.0);
-    run_for(r, 10.0);
-    assert_int_equal(r->n_kept, REPLAYED);
-    check_replay(r);
-    for (int i = 0; i < r->n_kept; i++)
-        check_near("time ms", 1e-6 * (double)r->kept[i].time_ns, 2.0 * i, 1.01);
-    assert_int_equal(r->player.heard, REPLAYED);
-    free_rig(r);
-
-    r = new_player(&recording, 1.0); // down for 2 s, and bus-off
-    skv_can_ops ops = *r->bus.bus->ops;
-    under = r->bus.bus->ops;
-    ops.send = send_like_the_kernel;
-    r->bus.bus->ops = &ops;
-    run_for(r, 1.0);
-    skv_can_fake_set_up(r->net, 0);
-    run_for(r, 2.0);
-    skv_can_fake_set_up(r->net, 1);
-    run_for(r, 1.0);
-    skv_can_fake_bus_off(r->net, 300);
-    run_for(r, 10.0);
-    assert_int_equal(r->n_kept, REPLAYED);
-    check_replay(r);
-    check_at_most("frames in a millisecond", longest_burst(r), 25); // 50 ms of frames wait at most: then all is moved
-    free_rig(r);
-
-    r = new_player(&recording, 1.0); // 3 of 4 sends refused; down for 2 s; bus-off
-    skv_can_fake_set_faults(r->net, &(skv_can_faults){.queue_full = 0.5, .again = 0.5, .seed = 3});
-    run_for(r, 2.0);
-    skv_can_fake_set_up(r->net, 0);
-    run_for(r, 2.0);
-    skv_can_fake_set_up(r->net, 1);
-    run_for(r, 2.0);
-    skv_can_fake_bus_off(r->net, 0);
-    run_for(r, 60.0);
-    assert_int_equal(r->n_kept, REPLAYED);
-    check_replay(r);
-    assert_true(r->bus.waits > REPLAYED);
-    assert_int_equal(r->bus.recoveries, 2);
-    free_rig(r);
-
-    r = new_player(&recording, 4.0);
-    r->options.loop = true;
-    run_for(r, 3.0); // three laps of a second, and the first frame of the fourth
-    assert_int_equal(r->n_kept, 3 * REPLAYED + 1);
-    check_replay(r);
-    free_rig(r);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_wire),
-        cmocka_unit_test(test_load),
-        cmocka_unit_test(test_stream),
-        cmocka_unit_test(test_utc),
-        cmocka_unit_test(test_clock_set),
-        cmocka_unit_test(test_cable),
-        cmocka_unit_test(test_down_from_the_start),
-        cmocka_unit_test(test_bus_off),
-        cmocka_unit_test(test_gone),
-        cmocka_unit_test(test_time_lapse),
-        cmocka_unit_test(test_loop),
-        cmocka_unit_test(test_out_of_range),
-        cmocka_unit_test(test_identification),
-        cmocka_unit_test(test_replay),
+        cmocka_unit_test(test_wire),         cmocka_unit_test(test_load),
+        cmocka_unit_test(test_stream),       cmocka_unit_test(test_utc),
+        cmocka_unit_test(test_utc_late),     cmocka_unit_test(test_utc_held_up),
+        cmocka_unit_test(test_refused),      cmocka_unit_test(test_clock_set),
+        cmocka_unit_test(test_cable),        cmocka_unit_test(test_down_from_the_start),
+        cmocka_unit_test(test_bus_off),      cmocka_unit_test(test_gone),
+        cmocka_unit_test(test_time_lapse),   cmocka_unit_test(test_loop),
+        cmocka_unit_test(test_out_of_range), cmocka_unit_test(test_identification),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,7 @@ typedef struct cockpit_options {
     // From the configuration file.
     int preset, bands, tier;
     double visibility_km;
+    double geoid_m;                                 ///< height of the sea above the ellipsoid
     double exposure;                                ///< k of 1 - exp(-k rgb); 0: by itself
     double minutes_per_click, visibility_per_click; ///< factor
     double night_below_deg, night_width_deg;

@@ -33,8 +33,12 @@ static void make_filters(cockpit_bus *b) {
         b->filter[i] = (skv_can_filter){.id = ids[i], .mask = 0x7FF};
 }
 
+/// What may wait while a sky is evaluated: .1 s of a full bus of 1 Mbit/s and more (a frame takes about 800 bytes).
+#define RECEIVE_BYTES 1000000
+
 static skv_can_options listening(const cockpit_bus *b) {
-    return (skv_can_options){.filters = b->filter, .n_filters = b->filters, .receive_errors = 1};
+    return (skv_can_options){
+        .filters = b->filter, .n_filters = b->filters, .receive_errors = 1, .receive_bytes = RECEIVE_BYTES};
 }
 
 static int open_can(cockpit_bus *b) {
@@ -123,16 +127,21 @@ static void hear_error(cockpit_bus *b, const skv_can_frame *frame) {
     }
 }
 
-/// The kernel stamps with the clock of the day, which may be set at any time: only the age is taken from it.
-static void date(cockpit_bus *b, const skv_can_received *r, cockpit_received *out) {
-    const int64_t now = cockpit_mono_ns();
+/// Now by the frames' clock and by the one that the kernel stamps with, which may be set at any time: only ages are
+/// taken from it. Read once for all frames of a call, which stay in order so.
+typedef struct now_of {
+    int64_t mono_ns, real_ns;
+} now_of;
+
+static void date(const cockpit_bus *b, const now_of *clocks, const skv_can_received *r, cockpit_received *out) {
+    const int64_t now = clocks->mono_ns;
     if (b->source != COCKPIT_CAN) {
         out->time_ns = r->time_ns; // arrived when a bus would have brought it
         out->arrived_ns = b->start_ns + (int64_t)((double)r->time_ns / b->speed);
         out->arrived_ns = out->arrived_ns > now ? now : out->arrived_ns;
         return;
     }
-    const int64_t age = r->time_ns == 0 ? 0 : clock_ns(CLOCK_REALTIME) - r->time_ns;
+    const int64_t age = r->time_ns == 0 ? 0 : clocks->real_ns - r->time_ns;
     out->time_ns = out->arrived_ns = age > 0 && age < second ? now - age : now;
 }
 
@@ -141,6 +150,7 @@ static void lose_interface(cockpit_bus *b) {
     skv_can_close(b->bus);
     b->bus = NULL;
     b->gone = true;
+    b->denied = false;
     memset(&b->state, 0, sizeof b->state);
 }
 
@@ -155,13 +165,14 @@ int cockpit_bus_receive(cockpit_bus *b, cockpit_received *frames, int n) {
             b->state.up = 0;
         if (count <= 0)
             break;
+        const now_of clocks = {cockpit_mono_ns(), clock_ns(CLOCK_REALTIME)};
         for (int i = 0; i < count; i++) {
             if (got[i].frame.flags & SKV_CAN_ERROR) {
                 hear_error(b, &got[i].frame);
                 continue;
             }
             frames[taken].frame = got[i].frame;
-            date(b, &got[i], &frames[taken++]);
+            date(b, &clocks, &got[i], &frames[taken++]);
         }
     }
     // A bus that carries data is on again.
@@ -170,9 +181,8 @@ int cockpit_bus_receive(cockpit_bus *b, cockpit_received *frames, int n) {
     return taken;
 }
 
-void cockpit_bus_send(cockpit_bus *b, const skv_can_frame *frame) {
-    if (b->bus)
-        (void)skv_can_send(b->bus, frame);
+bool cockpit_bus_send(cockpit_bus *b, const skv_can_frame *frame) {
+    return b->bus && skv_can_send(b->bus, frame) == SKV_CAN_OK;
 }
 
 /// The old state stays where the kernel does not answer.
@@ -216,14 +226,17 @@ const char *cockpit_bus_words(const cockpit_bus *b, char *text, size_t size) {
     if (b->source == COCKPIT_REPLAY && b->ended)
         return "the log is at its end";
     if (b->source != COCKPIT_CAN)
-        return "in this process";
+        return "no bus";
     if (!b->state.up)
         return "down";
     const unsigned c = b->bus_off ? SKV_CAN_BUS_OFF : b->state.controller;
+    const char *const doing = c == SKV_CAN_BUS_OFF && b->denied ? ", bus-off: no right to restart it"
+                              : c < 7                           ? controller[c]
+                                                                : "";
     if (b->state.bitrate > 0)
-        snprintf(text, size, "up, %g kbit/s%s", b->state.bitrate / 1000.0, c < 7 ? controller[c] : "");
+        snprintf(text, size, "up, %g kbit/s%s", b->state.bitrate / 1000.0, doing);
     else
-        snprintf(text, size, "up%s", c < 7 ? controller[c] : "");
+        snprintf(text, size, "up%s", doing);
     return text;
 }
 

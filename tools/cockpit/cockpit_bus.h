@@ -24,7 +24,7 @@ typedef struct cockpit_bus {
     uint32_t bus_offs;     ///< how often
     bool gone;             ///< the interface was removed: it is looked for once a second
     skv_can_counts before; ///< of handles that are closed
-    bool denied;           ///< a restart was not permitted: said once
+    bool denied;           ///< a restart was not permitted
     int64_t start_ns;      ///< CLOCK_MONOTONIC when the log or flight began
     double speed;
     // Log and flight.
@@ -37,6 +37,7 @@ typedef struct cockpit_bus {
     skv_candump_reader reader;
     skv_candump_entry entry; ///< next
     bool has_entry, ended;
+    int status; ///< what a bad line of the log makes the exit status
     int64_t first_ns;
     skv_cas_sender talker;
     int64_t next_ns;
@@ -63,8 +64,8 @@ int cockpit_bus_event_fd(const cockpit_bus *b);
 /// Takes frames that have come; error frames are counted and left out. @return how many; 0: none waits.
 int cockpit_bus_receive(cockpit_bus *b, cockpit_received *frames, int n);
 
-/// Sends, if it can: answers and what a cockpit has to say are not worth waiting for.
-void cockpit_bus_send(cockpit_bus *b, const skv_can_frame *frame);
+/// Sends, if it can. @return false iff the bus does not take it now
+bool cockpit_bus_send(cockpit_bus *b, const skv_can_frame *frame);
 
 /// Log and flight: sends what is due. Call it before receiving, until it answers false: nothing more is due.
 bool cockpit_bus_play(cockpit_bus *b);

@@ -79,10 +79,12 @@ static int take_sky(cockpit_options *o, const reading *r) {
         o->bands = 3 + index;
     } else if (is(r, "visibility_km")) {
         status = number(r, 0.02, 1000, &o->visibility_km);
+    } else if (is(r, "geoid_m")) {
+        status = number(r, -120, 100, &o->geoid_m);
     } else if (is(r, "exposure")) {
         status = strcmp(r->entry->value, "auto") == 0 ? 0 : number(r, 1e-6, 1e9, &o->exposure);
     } else {
-        return unknown(r, "air, tier, bands, visibility_km, exposure");
+        return unknown(r, "air, tier, bands, visibility_km, geoid_m, exposure");
     }
     return status;
 }

@@ -7,8 +7,16 @@
 static void answer(cockpit *c, const skv_can_frame *request) {
     const skv_cas_identity self = {.node = (uint8_t)c->options.node, .hardware_revision = 1, .software_revision = 1};
     skv_can_frame reply;
-    if (skv_cas_identify(request, &self, &reply) == 1)
-        cockpit_bus_send(&c->bus, &reply);
+    if (skv_cas_identify(request, &self, &reply) != 1 || cockpit_bus_send(&c->bus, &reply))
+        return;
+    c->reply = reply;
+    c->reply_until_ns = cockpit_mono_ns() + 100000000; // by the specification
+}
+
+/// The queue was full: once more at each tick.
+static void answer_late(cockpit *c) {
+    if (c->reply_until_ns > 0 && (cockpit_mono_ns() > c->reply_until_ns || cockpit_bus_send(&c->bus, &c->reply)))
+        c->reply_until_ns = 0;
 }
 
 void cockpit_receive(cockpit *c) {
@@ -56,10 +64,13 @@ static int stride(const cockpit *c) {
 static void choose_level(cockpit *c, int64_t now_ns) {
     const double share = c->stats.evaluate_ms * c->options.rate / 1000.0 / stride(c);
     const int64_t since = now_ns - c->level_ns;
-    const int change = share > 0.7 && since > 500000000 ? 1 : share < 0.2 && since > 10000000000 ? -1 : 0;
+    const int change = share > 0.7 && since > 500000000 ? 1 : share < 0.2 && since > c->calm_ns ? -1 : 0;
     const int level = c->sky.level + change;
     if (change == 0 || level < 0 || level > 4)
         return;
+    if (change > 0 && c->tried && c->calm_ns < 600000000000) // it was too much: not to and fro every ten seconds
+        c->calm_ns *= 2;
+    c->tried = change < 0;
     c->sky.level = level;
     c->level_ns = now_ns;
     c->stats.evaluate_ms = 0.0;
@@ -74,9 +85,7 @@ static void publish(cockpit *c, int64_t until_ns, double seconds) {
     cockpit_stats_evaluated(&c->stats, thread_ns() - before);
     skv_vertices_moment moment = c->sky.at;
     moment.flags = c->flags;
-    moment.input_ns = 0;
-    for (int i = 0; i < c->stats.pending_count; i++)
-        moment.input_ns = c->stats.pending[i] > moment.input_ns ? c->stats.pending[i] : moment.input_ns;
+    moment.input_ns = c->stats.newest_ns;
     moment.published_ns = cockpit_mono_ns();
     cockpit_share_publish(&c->share, &c->sky, &moment);
     cockpit_stats_published(&c->stats, until_ns, cockpit_mono_ns());
@@ -86,6 +95,7 @@ static void publish(cockpit *c, int64_t until_ns, double seconds) {
 void cockpit_frame(cockpit *c) {
     const int64_t until_ns = cockpit_mono_ns();
     const double period_s = 1.0 / c->options.rate;
+    answer_late(c);
     cockpit_state_now(&c->state, cockpit_bus_now(&c->bus), &c->now);
     if (c->options.exposure > 0)
         c->now.exposure = c->options.exposure / (double)SKV_WHITE_LUMINANCE;

@@ -45,7 +45,6 @@ static int open_timer(double rate) {
 }
 
 static int open_descriptors(cockpit *c) {
-    c->signals = open_signals();
     c->timer = open_timer(c->options.rate);
     c->poll = epoll_create1(EPOLL_CLOEXEC);
     if (c->signals < 0 || c->timer < 0 || c->poll < 0)
@@ -60,10 +59,13 @@ static int open_descriptors(cockpit *c) {
 
 int cockpit_open(cockpit *c) {
     const cockpit_options *const o = &c->options;
-    c->poll = c->timer = c->signals = -1;
+    c->poll = c->timer = -1;
+    c->signals = open_signals(); // first: an early one must not leave anything behind
     c->speaker.node = (uint8_t)o->node;
+    c->calm_ns = 10 * second;
     cockpit_stats_begin(&c->stats);
     cockpit_state_begin(&c->state, o->visibility_km);
+    c->state.geoid_m = o->geoid_m;
     int status = cockpit_bus_open(&c->bus, o);
     if (status != 0)
         return status;
@@ -120,7 +122,7 @@ static void send_number(cockpit *c, skv_cas_index index, double value) {
     const double low = (double)skv_cas_table[index].low, high = (double)skv_cas_table[index].high;
     const int n = skv_cas_encode(&c->speaker, index, 0, value < low ? low : value > high ? high : value, frames);
     for (int i = 0; i < n; i++)
-        cockpit_bus_send(&c->bus, &frames[i]);
+        (void)cockpit_bus_send(&c->bus, &frames[i]);
 }
 
 /// What others on the bus may want to know.
@@ -130,10 +132,11 @@ static void transmit(cockpit *c) {
         SKV_CAS_DAY, (uint8_t)((c->panel.night ? SKV_CAS_LAMP_NIGHT : 0) | (c->panel.bus ? SKV_CAS_LAMP_BUS_FAULT : 0)),
         (uint8_t)c->now.stale, 0};
     skv_can_frame frame;
+    // A bus that does not take them gets the next ones a second later.
     while (state[0] < SKV_CAS_NIGHT && c->now.sun.elevation_deg < below[state[0]])
         state[0]++;
     if (skv_cas_encode_bytes(&c->speaker, SKV_CAS_SKY_STATE, state, &frame) == 1)
-        cockpit_bus_send(&c->bus, &frame);
+        (void)cockpit_bus_send(&c->bus, &frame);
     send_number(c, SKV_CAS_ZENITH_LUMINANCE, c->sky.zenith_cd_m2);
     send_number(c, SKV_CAS_TIME_OFFSET, c->state.time_offset_s);
     if (c->state.visibility_km > 0)
@@ -246,5 +249,5 @@ int cockpit_run(cockpit *c) {
         cockpit_view_end();
     if (c->snapshot > 0)
         waitpid(c->snapshot, NULL, 0);
-    return c->status;
+    return c->status ? c->status : c->bus.status;
 }

@@ -21,8 +21,12 @@ typedef struct cockpit {
     cockpit_panel panel;
     cockpit_stats stats;
     skv_cas_sender speaker;
+    skv_can_frame reply;      ///< to an identification request, that the bus has not taken yet
+    int64_t reply_until_ns;   ///< and how long it is wanted, 0: there is none
     int poll, timer, signals; ///< descriptors, -1: none
     int64_t tick, shown_ns, second_ns, level_ns;
+    int64_t calm_ns; ///< so long it must be cheap before a dearer way is tried again
+    bool tried;      ///< the last change of it was to a dearer way
     bool running, quit, seen;
     pid_t snapshot; ///< the process that makes one, 0: none
     int status;

@@ -15,8 +15,9 @@ static const char help[] =
     "  --vertices N       of the dome, 64 to 65536 (default 2048)\n"
     "  --shm NAME         publish vertices in the shared memory NAME (tools/cockpit/vertices.h)\n"
     "  --png FILE, --exr FILE   where to write a snapshot on SIGUSR1: the whole sky, north in the centre, east right of it\n"
-    "  --replay LOG       a log of candump instead of a bus; --speed N times as fast (default 1)\n"
+    "  --replay LOG       a log of candump instead of a bus\n"
     "  --fake             a made-up flight instead of a bus\n"
+    "  --speed N          log or made-up flight N times as fast, 0.01 to 1000 (default 1)\n"
     "  --duration S       end after S seconds\n"
     "  --stats FILE       figures at the end: frames, latency, processor time, memory\n"
     "  --no-terminal      a line a second instead of the picture, also on a terminal\n"
@@ -67,7 +68,6 @@ static void defaults(cockpit_options *o) {
     strcpy(o->interface, "can0");
     o->node = 20;
     o->terminal = isatty(STDOUT_FILENO) == 1;
-    o->speed = 1.0;
     o->rate = 60.0;
     o->vertices = 2048;
     o->preset = SKV_PRESET_EARTH_CLEAR;
@@ -144,9 +144,12 @@ static int read_config_first(cockpit_options *o, int argc, char **argv) {
     return status;
 }
 
-static int check(const cockpit_options *o, int argc, char **argv) {
+static int check(cockpit_options *o, int argc, char **argv) {
     if (optind < argc)
         return fail_usage(COCKPIT ": %.60s: there are only options (%s --help)", argv[optind], COCKPIT);
+    if (o->speed > 0 && !o->replay && !o->fake)
+        return fail_usage(COCKPIT ": --speed goes with --replay or --fake: a bus has its own pace");
+    o->speed = o->speed > 0 ? o->speed : 1.0;
     if (o->replay && o->fake)
         return fail_usage(COCKPIT ": --replay or --fake, not both");
     return 0;

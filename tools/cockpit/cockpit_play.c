@@ -7,6 +7,16 @@
 
 static const int64_t second = 1000000000;
 
+/// A line that is none: an error, but for a last one without an end, where whoever wrote the log was stopped.
+static void bad_line(cockpit_bus *b, bool whole) {
+    if (whole)
+        b->status = fail_usage("%.200s:%llu: column %d: %s", b->path, (unsigned long long)b->reader.line,
+                               b->reader.column, b->reader.reason);
+    else
+        fail_job("%.200s:%llu: the log ends within this line, which is left out", b->path,
+                 (unsigned long long)b->reader.line); // its status is not wanted
+}
+
 /// The next frame of the log; at its end, or at a line that is none, the log has ended.
 static void read_entry(cockpit_bus *b) {
     ssize_t length;
@@ -16,11 +26,14 @@ static void read_entry(cockpit_bus *b) {
             if (b->reader.frames == 1)
                 b->first_ns = b->entry.time_ns;
             b->has_entry = true;
+            const int64_t gap_ns = b->entry.time_ns - b->first_ns - b->next_ns;
+            if (gap_ns > 3600 * second)
+                fail_job("%.200s:%llu: %.0f s behind the frame before: was the clock set?", b->path,
+                         (unsigned long long)b->reader.line, 1e-9 * (double)gap_ns); // its status is not wanted
             return;
         }
         if (result == SKV_CANDUMP_ERROR) {
-            (void)fail_usage("%.200s:%llu: column %d: %s", b->path, (unsigned long long)b->reader.line,
-                             b->reader.column, b->reader.reason);
+            bad_line(b, b->line[length - 1] == '\n');
             break;
         }
     }

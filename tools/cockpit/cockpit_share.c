@@ -41,10 +41,9 @@ static int make(cockpit_share *share) {
     const int fd = shm_open(share->name, O_RDWR | O_CREAT | O_EXCL, 0644);
     if (fd < 0)
         return fail_job(COCKPIT ": --shm %s: %s", share->name, strerror(errno));
-    void *const map = ftruncate(fd, (off_t)share->bytes) == 0
-                          ? mmap(NULL, share->bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0)
-                          : MAP_FAILED;
-    const int error = errno;
+    int error = posix_fallocate(fd, 0, (off_t)share->bytes); // room now, or a write would end this program later
+    void *const map = error ? MAP_FAILED : mmap(NULL, share->bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    error = error ? error : errno;
     close(fd);
     if (map != MAP_FAILED) {
         share->map = map;

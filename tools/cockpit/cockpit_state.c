@@ -5,7 +5,8 @@
 #include <string.h>
 
 // Tuned for frames every .1 s (position) and every second (time): half of a frame's surprise is believed at once.
-// Speeds: 3 km/s over the ground, half a turn of longitude near the poles; time up to 1000 times as fast as it is.
+// Speeds: 3 km/s over the ground, half a turn of longitude near the poles. Time may run 90 times as fast as it should;
+// faster it goes by jumps.
 static const cockpit_motion_kind latitude_kind = {
     .alpha = .5, .beta = .2, .jump = .2, .speed = .03, .period_s = .1, .hold_s = .3, .blend_s = .25};
 static const cockpit_motion_kind longitude_kind = {
@@ -13,7 +14,7 @@ static const cockpit_motion_kind longitude_kind = {
 static const cockpit_motion_kind height_kind = {
     .alpha = .5, .beta = .2, .jump = 1000, .speed = 3000, .period_s = .1, .hold_s = .3, .blend_s = .25};
 static const cockpit_motion_kind clock_kind = {
-    .alpha = .5, .beta = .3, .jump = 90, .speed = 1000, .first_speed = 1, .period_s = 1, .hold_s = 3, .blend_s = .5};
+    .alpha = .5, .beta = .3, .jump = 90, .speed = 90, .first_speed = 1, .period_s = 1, .hold_s = 3, .blend_s = .5};
 static const cockpit_motion_kind azimuth_kind = {
     .alpha = .6, .beta = .3, .jump = 5, .speed = 10, .period_s = 1, .hold_s = 3, .blend_s = .5, .wrap = 360};
 static const cockpit_motion_kind elevation_kind = {
@@ -30,6 +31,8 @@ static const skv_cas_index needed[] = {
     SKV_CAS_TIME_OFFSET, SKV_CAS_VISIBILITY_SETTING};
 enum { NEEDED = sizeof needed / sizeof needed[0] };
 
+/// How fast what was learnt of the geoid is given up.
+static const double learnt_fade_s = 600.0;
 static const double degree = 3.14159265358979323846 / 180.0, day_s = 86400.0;
 
 int cockpit_state_ids(uint32_t *ids, int room) {
@@ -59,13 +62,15 @@ static skv_cas_index best_height(const cockpit_state *s) {
     return s->height_from;
 }
 
-/// Midnight comes to the two messages one after the other: within 5 s of it the day follows the clock.
+/// Midnight comes to the two messages one after the other: within 5 s of it (of a clock that runs as it should) the day
+/// follows the clock.
 static double near_midnight(const cockpit_state *s, double seconds, double of_day, int64_t time_ns) {
-    if (s->clock.frames == 0 || (of_day > 5.0 && of_day < day_s - 5.0))
+    const double near_s = 5.0 * fmax(1.0, fabs(s->clock.speed));
+    if (s->clock.frames == 0 || (of_day > near_s && of_day < day_s - near_s))
         return seconds;
     const double expected = cockpit_motion_at(&s->clock, &clock_kind, time_ns);
     for (int days = -1; days <= 1; days += 2)
-        if (fabs(seconds + days * day_s - expected) < 10.0)
+        if (fabs(seconds + days * day_s - expected) < 2.0 * near_s)
             return seconds + days * day_s;
     return seconds;
 }
@@ -84,12 +89,33 @@ static void take_time(cockpit_state *s, int64_t time_ns) {
                          time_ns);
 }
 
-static void take_height(cockpit_state *s, skv_cas_index index, double value, int64_t time_ns) {
-    const skv_cas_index best = best_height(s);
-    if (best != index)
+/// Height of the sea above the ellipsoid: as the bus had it last, which fades to what the file says (an altimeter's
+/// error, that is in it, belongs to one height).
+static double geoid(const cockpit_state *s, int64_t time_ns) {
+    const double ago_s = fmax(0.0, 1e-9 * (double)(time_ns - s->learnt_ns));
+    return s->learnt > 0 ? s->geoid_m + (s->learnt_m - s->geoid_m) * exp(-ago_s / learnt_fade_s) : s->geoid_m;
+}
+
+/// A height above the ellipsoid while one above the sea is fresh and shown.
+static void learn(cockpit_state *s, double ellipsoid_m, int64_t time_ns) {
+    const skv_cas_slot *const slot = &s->cas.slot[s->height_from];
+    const double since_s = 1e-9 * (double)(time_ns - slot->time_ns);
+    const double above_m = ellipsoid_m - (slot->value + s->height.speed * since_s);
+    if (fabs(above_m) > height_kind.jump) // one of them was put elsewhere, the other not yet
         return;
-    s->height_from = index;
-    cockpit_motion_frame(&s->height, &height_kind, value, time_ns);
+    s->learnt += s->learnt < 10;
+    s->learnt_m += (above_m - s->learnt_m) / s->learnt;
+    s->learnt_ns = time_ns;
+}
+
+static void take_height(cockpit_state *s, skv_cas_index index, double value, int64_t time_ns) {
+    const bool ellipsoid = skv_cas_table[index].datum == SKV_CAS_ELLIPSOID;
+    if (best_height(s) == index) {
+        s->height_from = index;
+        cockpit_motion_frame(&s->height, &height_kind, ellipsoid ? value - geoid(s, time_ns) : value, time_ns);
+    } else if (ellipsoid && best_height(s) == s->height_from) {
+        learn(s, value, time_ns);
+    }
 }
 
 static void take(cockpit_state *s, skv_cas_index index, int64_t time_ns) {
@@ -152,6 +178,7 @@ static void place(const cockpit_state *s, int64_t now_ns, cockpit_now *now) {
         return;
     now->height_m = cockpit_motion_at(&s->height, &height_kind, now_ns);
     now->datum = (skv_cas_datum)skv_cas_table[s->height_from].datum;
+    now->geoid_m = now->datum == SKV_CAS_ELLIPSOID ? geoid(s, now_ns) : 0.0;
     now->height_stale = !fresh(s, s->height_from);
 }
 

@@ -12,12 +12,16 @@ typedef struct cockpit_state {
     skv_cas_receiver cas;
     cockpit_motion latitude, longitude, height, clock, sun_azimuth, sun_elevation;
     skv_cas_index height_from;
+    double learnt_m;           ///< height above the ellipsoid less that above the sea, while both came
+    uint32_t learnt;           ///< frames of it; 0: none
+    int64_t learnt_ns;         ///< of the last one
     int64_t first_ns, last_ns; ///< of accepted frames; last_ns 0: none
     uint64_t accepted;
     // Knobs of this cockpit.
     double time_offset_s;
     double visibility_km;         ///< 0: as the bus says
     double default_visibility_km; ///< where the bus says nothing
+    double geoid_m;               ///< height of the sea above the ellipsoid here; 0 unless set after the beginning
 } cockpit_state;
 
 /// A moment as it is shown.
@@ -26,8 +30,10 @@ typedef struct cockpit_now {
     bool sun_by_bus;
     bool position_stale, height_stale, time_stale; ///< of what was ever known
     bool held;                                     ///< nothing of it is fresh
-    double latitude_deg, longitude_deg, height_m;
-    skv_cas_datum datum;
+    double latitude_deg, longitude_deg;
+    double height_m;     ///< above the sea; by pressure where the bus says nothing better
+    skv_cas_datum datum; ///< what the bus's own height is above
+    double geoid_m;      ///< with SKV_CAS_ELLIPSOID: what was taken from it
     skv_utc utc;
     double time_offset_s;
     skv_sun sun;

@@ -51,6 +51,7 @@ void cockpit_stats_begin(cockpit_stats *s) {
 }
 
 void cockpit_stats_arrived(cockpit_stats *s, int64_t arrived_ns) {
+    s->newest_ns = arrived_ns > s->newest_ns ? arrived_ns : s->newest_ns;
     if (s->pending_count < COCKPIT_PENDING)
         s->pending[s->pending_count++] = arrived_ns;
     else

@@ -31,6 +31,7 @@ typedef struct cockpit_stats {
     int64_t pending[COCKPIT_PENDING]; ///< arrivals that no published frame has shown yet
     int pending_count;
     uint64_t pending_lost;
+    int64_t newest_ns; ///< the last arrival, 0: none
 } cockpit_stats;
 
 void cockpit_stats_begin(cockpit_stats *s);

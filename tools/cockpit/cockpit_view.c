@@ -120,13 +120,31 @@ static void text_line(page *p, int columns, bool last, const char *format, ...) 
     put(p, "%.*s\033[K%s", columns, line, last ? "" : "\r\n");
 }
 
-static const char *mark(bool known, bool stale) {
-    return !known ? "never received" : stale ? "STALE" : "";
+static const char *mark(bool stale) {
+    return stale ? "STALE" : "";
+}
+
+static void place_lines(page *p, const cockpit_now *n, int columns) {
+    char from[40];
+    snprintf(from, sizeof from, "above the sea (GPS %+.0f m)", -n->geoid_m);
+    const char *const datum = n->datum == SKV_CAS_ELLIPSOID  ? from
+                              : n->datum == SKV_CAS_PRESSURE ? "by pressure"
+                                                             : "above the sea";
+    if (n->has_position)
+        text_line(p, columns, false, "Place    %.5f %c  %.5f %c  %s", fabs(n->latitude_deg),
+                  n->latitude_deg < 0 ? 'S' : 'N', fabs(n->longitude_deg), n->longitude_deg < 0 ? 'W' : 'E',
+                  mark(n->position_stale));
+    else
+        text_line(p, columns, false, "Place    never received");
+    if (n->has_height)
+        text_line(p, columns, false, "Height   %.0f m (%.0f ft) %s  %s", n->height_m, n->height_m / 0.3048, datum,
+                  mark(n->height_stale));
+    else
+        text_line(p, columns, false, "Height   never received");
 }
 
 static void sky_lines(page *p, const cockpit_shown *s, int columns) {
     const cockpit_now *const n = s->now;
-    static const char *const datum[] = {"", "above the ellipsoid", "above the sea", "by pressure", "above the ground"};
     skv_calendar c = {0};
     const bool dated = n->has_time && skv_utc_to_calendar(&c, &n->utc) == SKV_OK;
     if (n->has_sun)
@@ -137,14 +155,11 @@ static void sky_lines(page *p, const cockpit_shown *s, int columns) {
                                                      : "");
     else
         text_line(p, columns, false, "Sun      waiting for position and time, or for the sun's place");
-    text_line(p, columns, false, "Place    %10.5f %11.5f deg %s", n->latitude_deg, n->longitude_deg,
-              mark(n->has_position, n->position_stale));
-    text_line(p, columns, false, "Height   %.0f m %s %s", n->height_m, datum[n->datum],
-              mark(n->has_height, n->height_stale));
+    place_lines(p, n, columns);
     if (dated)
         text_line(p, columns, false, "UTC      %04d-%02d-%02d %02d:%02d:%02d  knob %+.0f min %s", (int)c.year,
                   (int)c.month, (int)c.day, (int)c.hour, (int)c.minute, (int)c.second, n->time_offset_s / 60.0,
-                  mark(true, n->time_stale));
+                  mark(n->time_stale));
     else
         text_line(p, columns, false, "UTC      never received");
     text_line(p, columns, false, "Air      visibility %.3g km  zenith %.3g cd/m2  exposure %.3g",
@@ -155,18 +170,18 @@ static void bus_lines(page *p, const cockpit_shown *s, int columns) {
     char words[64], stale[200];
     const skv_can_counts counts = cockpit_bus_counts(s->bus);
     const uint32_t *const t = s->state->cas.total;
-    text_line(p, columns, false, "Bus      %s: %s  got %llu  dropped %llu  errors %llu  bus-off %u", s->bus->name,
+    text_line(p, columns, false, "Bus      %s: %s  received %llu  dropped %llu  errors %llu  bus-off %u", s->bus->name,
               cockpit_bus_words(s->bus, words, sizeof words), (unsigned long long)counts.received,
               (unsigned long long)counts.dropped, (unsigned long long)counts.error_frames, s->bus->bus_offs);
-    text_line(p, columns, false, "Frames   missing %u dup %u reordered %u range %u NaN %u type %u service %u node %u",
+    text_line(p, columns, false, "Faults   missing %u dup %u reordered %u range %u NaN %u type %u service %u node %u",
               t[SKV_CAS_MISSING], t[SKV_CAS_DUPLICATE], t[SKV_CAS_REORDERED], t[SKV_CAS_OUT_OF_RANGE],
               t[SKV_CAS_NOT_FINITE], t[SKV_CAS_BAD_TYPE], t[SKV_CAS_BAD_SERVICE], t[SKV_CAS_OTHER_NODE]);
     cockpit_state_stale(s->state, stale, sizeof stale);
     text_line(p, columns, false, "Stale    %s", stale[0] ? stale : "nothing");
-    text_line(p, columns, false, "Panel    %s turns %s  lamps: night %s, bus %s",
-              s->panel->gpio ? "knob" : "(no switches) knob", s->panel->visibility ? "visibility" : "time of day",
+    text_line(p, columns, false, "Panel    %s: %s  lamps: night %s, bus fault %s",
+              s->panel->gpio ? "knob" : "no switches, knob", s->panel->visibility ? "visibility" : "time of day",
               s->panel->night ? "ON" : "off", s->panel->bus ? "ON" : "off");
-    text_line(p, columns, true, "Frames   %llu  %u vertices  %.1f ms each  late %llu  skipped %llu  delay %.1f ms",
+    text_line(p, columns, true, "Picture  no. %llu  %u vertices  %.1f ms each  late %llu  skipped %llu  delay %.1f ms",
               (unsigned long long)s->stats->frames, s->sky->vertices, s->stats->evaluate_ms,
               (unsigned long long)s->stats->late, (unsigned long long)s->stats->skipped,
               cockpit_histogram_ms(&s->stats->latency, 0.5));

@@ -24,7 +24,7 @@ static void enter(sim_bus *b, sim_bus_phase phase) {
     b->bus_offs += phase == SIM_BUS_OFF;
     b->gone += phase == SIM_BUS_GONE;
     b->phase = phase;
-    b->denied = false;
+    b->denied = b->refused = false;
     if (phase == SIM_BUS_OFF && b->state.restart_ms)
         snprintf(line, sizeof line, "bus-off: the kernel restarts it after %u ms", (unsigned)b->state.restart_ms);
     else
@@ -93,12 +93,23 @@ void sim_bus_end(sim_bus *b) {
 
 // ---- frames
 
+void sim_bus_say_why(sim_bus *b, skv_can_status status) {
+    char line[160];
+    if (b->refused || status == SKV_CAN_OK || (status <= SKV_CAN_QUEUE_FULL && status >= SKV_CAN_UNAVAILABLE))
+        return;
+    b->refused = true;
+    snprintf(line, sizeof line, "cannot send: %s", // it is tried on
+             status == SKV_CAN_SYSTEM ? strerror(skv_can_errno(b->bus)) : skv_can_status_text(status));
+    say(b, line);
+}
+
 skv_can_status sim_bus_send(sim_bus *b, const skv_can_frame *frame, int64_t now_ns) {
     if (!b->bus || b->phase != SIM_BUS_WORKS)
         return SKV_CAN_DOWN;
     const skv_can_status status = skv_can_send(b->bus, frame);
     b->frames += status == SKV_CAN_OK;
     b->waits += status == SKV_CAN_QUEUE_FULL || status == SKV_CAN_AGAIN;
+    sim_bus_say_why(b, status);
     if (status == SKV_CAN_GONE || status == SKV_CAN_DOWN)
         sim_bus_look(b, now_ns);
     return status;

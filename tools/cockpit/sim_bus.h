@@ -39,7 +39,7 @@ typedef struct sim_bus {
     int64_t asked_ns[SIM_REPLIES]; ///< of each reply
     int replies;
     int64_t look_ns, restart_ns; ///< when to look next; when to restart it next
-    bool denied;
+    bool denied, refused;        ///< said once
 } sim_bus;
 
 /// Opens it for the first time: all but open, context, name, quiet and self start as 0.
@@ -60,5 +60,8 @@ int64_t sim_bus_tick(sim_bus *b, int64_t now_ns);
 /// Sends one frame. @return SKV_CAN_OK; else it has to be sent later: at bus-off, where the kernel would throw it away,
 /// SKV_CAN_DOWN.
 skv_can_status sim_bus_send(sim_bus *b, const skv_can_frame *frame, int64_t now_ns);
+
+/// Says once why sending does not work where no waiting helps: permission, memory, a driver's own errors.
+void sim_bus_say_why(sim_bus *b, skv_can_status status);
 
 #endif

@@ -6,54 +6,6 @@
 
 #include "tools/skyvert/place.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
-// ---- motion
-
-/// WGS 84 [NIMA00].
-#define EARTH_RADIUS_M       6378137.0
-#define EARTH_ECCENTRICITY_2 6.69437999014e-3
-
-typedef struct motion {
-    double north_m, east_m, up_m;
-} motion;
-
-/// The way from a to b in the plane at the middle of both: short ways only.
-static motion way(const fix *a, const fix *b) {
-    const double lat = 0.5 * (a->lat_deg + b->lat_deg) * degree, h = 0.5 * (a->height_m + b->height_m);
-    const double w = 1.0 - EARTH_ECCENTRICITY_2 * sin(lat) * sin(lat);
-    const double meridian = EARTH_RADIUS_M * (1.0 - EARTH_ECCENTRICITY_2) / (w * sqrt(w));
-    const double prime = EARTH_RADIUS_M / sqrt(w);
-    return (motion){(b->lat_deg - a->lat_deg) * degree * (meridian + h),
-                    remainder(b->lon_deg - a->lon_deg, 360.0) * degree * cos(lat) * (prime + h),
-                    b->height_m - a->height_m};
-}
-
-static double course_of(const motion *m) {
-    return atan2(m->east_m, m->north_m) / degree;
-}
-
-/// Beginning with the last: a way of under a metre takes the course of the one behind it.
-static bool find_courses(sim_flight *f) {
-    const size_t n = f->track.count;
-    bool known = false;
-    size_t last = n; // fixes from here on stand still at the end
-    f->course_deg = calloc(n, sizeof *f->course_deg);
-    if (!f->course_deg)
-        return false;
-    for (size_t i = n - 1; i-- > 0;) {
-        const motion m = way(&f->track.fixes[i], &f->track.fixes[i + 1]);
-        const bool moves = hypot(m.north_m, m.east_m) >= 1.0;
-        f->course_deg[i] = moves ? course_of(&m) : known ? f->course_deg[i + 1] : 0.0;
-        if (moves && !known)
-            last = i + 1;
-        known = known || moves;
-    }
-    for (size_t i = last; i < n; i++)
-        f->course_deg[i] = f->course_deg[last - 1];
-    return true;
-}
-
 int sim_flight_open(sim_flight *f, const char *path, const sim_flight_options *options) {
     memset(f, 0, sizeof *f);
     f->visibility_m = options->visibility_m;
@@ -63,14 +15,15 @@ int sim_flight_open(sim_flight *f, const char *path, const sim_flight_options *o
     f->duration_s = flight_duration_s(&f->track);
     place at = {.lat_deg = f->track.fixes[0].lat_deg, .lon_deg = f->track.fixes[0].lon_deg};
     f->knows_ellipsoid = place_set_height_roughly(&at, 0.0, HEIGHT_MSL) == NULL;
-    if (find_courses(f))
+    f->posture = sim_postures(&f->track);
+    if (f->posture)
         return 0;
     sim_flight_close(f);
     return fail_job("%.200s: out of memory", path);
 }
 
 void sim_flight_close(sim_flight *f) {
-    free(f->course_deg);
+    free(f->posture);
     flight_free(&f->track);
     place_end();
     memset(f, 0, sizeof *f);
@@ -83,8 +36,8 @@ static fix fix_at(sim_flight *f, skv_cas_index index, int which, double after_s)
 
 typedef struct state {
     fix at;
-    motion speed; // m/s
-    double course_deg;
+    sim_motion speed; // m/s
+    double course_deg, pitch_deg, roll_deg;
 } state;
 
 /// Speeds are over the second around the moment.
@@ -94,15 +47,16 @@ static state state_at(sim_flight *f, skv_cas_index index, double after_s) {
     f->last_s[index] = after_s;
     state s = {.at = fix_at(f, index, 0, after_s)};
     const double before_s = fmax(0.0, after_s - 0.5), behind_s = fmin(f->duration_s, after_s + 0.5);
-    s.course_deg = f->course_deg[f->hint[index][0]];
+    s.course_deg = (double)f->posture[f->hint[index][0]].course_deg;
     if (after_s > f->duration_s || behind_s - before_s < 0.1)
         return s;
     const fix a = fix_at(f, index, 1, before_s), b = fix_at(f, index, 2, behind_s);
-    const motion m = way(&a, &b);
+    const sim_motion m = sim_way(&a, &b, &s.at);
     const double per_s = 1.0 / (behind_s - before_s);
-    s.speed = (motion){m.north_m * per_s, m.east_m * per_s, m.up_m * per_s};
+    s.speed = (sim_motion){m.north_m * per_s, m.east_m * per_s, m.up_m * per_s};
     if (hypot(s.speed.north_m, s.speed.east_m) >= 1.0)
-        s.course_deg = course_of(&m);
+        s.course_deg = sim_course_deg(&m);
+    sim_attitude_at(&f->track, f->posture, f->hint[index][0], after_s, &s.pitch_deg, &s.roll_deg);
     return s;
 }
 
@@ -182,6 +136,12 @@ static bool value_of(const sim_flight *f, skv_cas_index index, const state *s, d
     case SKV_CAS_TRUE_HEADING:
         *value = s->course_deg;
         return true;
+    case SKV_CAS_PITCH:
+        *value = s->pitch_deg;
+        return true;
+    case SKV_CAS_ROLL:
+        *value = s->roll_deg;
+        return true;
     case SKV_CAS_AIR_TEMPERATURE:
     case SKV_CAS_OUTSIDE_AIR:
     case SKV_CAS_STATIC_PRESSURE:
@@ -217,6 +177,8 @@ int sim_flight_slots(const sim_flight *f, double start_s, sim_slot *slots) {
         skv_cas_index index;
         int phase_ms;
     } plan[] = {
+        {SKV_CAS_PITCH, 60},
+        {SKV_CAS_ROLL, 62},
         {SKV_CAS_ALTITUDE_RATE, 50},
         {SKV_CAS_HEADING, 52},
         {SKV_CAS_AIR_TEMPERATURE, 520},

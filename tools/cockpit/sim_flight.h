@@ -1,9 +1,10 @@
-/// A flight as messages: what each frame holds at each moment, and when each is sent.
+/// A flight as messages: what each frame holds at each moment, and when each is sent. Pitch and roll, which no track
+/// has, are those of a coordinated turn without wind along it: see sim_attitude_at().
 #ifndef SIM_FLIGHT_H
 #define SIM_FLIGHT_H
 
 #include "port/canaerospace/skv_canaerospace.h"
-#include "tools/skyvert/flight.h"
+#include "sim_motion.h"
 
 /// How to read a flight.
 typedef struct sim_flight_options {
@@ -16,7 +17,7 @@ typedef struct sim_flight {
     flight track;
     double duration_s;
     double visibility_m;
-    double *course_deg; // [fixes]: of the way from each fix on; where it stands still, of the way that follows
+    sim_posture *posture; ///< [fixes]
     bool knows_ellipsoid;
     size_t hint[SKV_CAS_MESSAGES][3];
     double last_s[SKV_CAS_MESSAGES];

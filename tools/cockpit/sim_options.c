@@ -9,8 +9,9 @@
 static const char help[] =
     "usage: skyvert-sim FLIGHT [--interface can0] [OPTION...]\n"
     "       skyvert-sim FLIGHT --log FILE --speed N|max [OPTION...]\n\n"
-    "Sends a flight on a CAN bus as CANaerospace messages: position, height and motion every 100 ms; time, date, sun,\n"
-    "moon, air and visibility every second. Or writes these frames as a candump log, which needs no CAN.\n"
+    "Sends a flight on a CAN bus as CANaerospace messages: position, height, motion and attitude every 100 ms; time,\n"
+    "date, sun, moon, air and visibility every second. Or writes these frames as a candump log, which needs no CAN.\n"
+    "Tracks have no attitude: pitch is the angle of the flight path, roll that of a coordinated turn without wind.\n"
     "FLIGHT is a CSV file (columns utc,lat_deg,lon_deg,height_m), an IGC file (name ends in .igc), or a candump log\n"
     "to send as it is, at its own pace.\n\n"
     "  --interface NAME       of the bus (default can0); with --log the name in the log\n"

@@ -1,6 +1,7 @@
 #include "sim_replay.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,8 @@
 
 /// Most frames of a log: an hour of a full bus and more.
 #define RECORDS_MAX 50000000
+/// More than this between two frames is worth a line: a board's clock that was set while it was logging.
+#define GAP_NS INT64_C(3600000000000)
 
 int sim_is_candump(const char *path, bool *candump) {
     FILE *stream = fopen(path, "rb");
@@ -42,6 +45,11 @@ static int append(sim_recording *r, const skv_candump_entry *entry, const char *
     const int64_t before = r->count > 0 ? r->records[r->count - 1].after_ns : 0;
     const int64_t after = entry->time_ns - r->first_ns;
     r->backwards += after < before;
+    if (after - before > GAP_NS && !r->gap)
+        fprintf(stderr,
+                SIM ": %.200s:%lu: %.0f s behind the frame before: was the clock set? --start %.0f begins here\n", path,
+                line, 1e-9 * (double)(after - before), floor(1e-9 * (double)after));
+    r->gap = r->gap || after - before > GAP_NS;
     r->records[r->count++] = (sim_record){after < before ? before : after, entry->frame};
     return 0;
 }
@@ -53,6 +61,11 @@ static int read_lines(sim_recording *r, FILE *stream, const char *path) {
     int status = 0;
     while (status == 0 && fgets(line, sizeof line, stream)) {
         const skv_candump_result result = skv_candump_read(&reader, line, strlen(line), &entry);
+        if (result == SKV_CANDUMP_ERROR && !strchr(line, '\n') && feof(stream)) { // whoever wrote it was stopped
+            fprintf(stderr, SIM ": %.200s:%lu: the log ends within this line, which is left out\n", path,
+                    (unsigned long)reader.line);
+            break;
+        }
         if (result == SKV_CANDUMP_ERROR)
             return fail_usage("%.200s:%lu: column %d: %s", path, (unsigned long)reader.line, reader.column,
                               reader.reason);

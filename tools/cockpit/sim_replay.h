@@ -15,6 +15,7 @@ typedef struct sim_recording {
     int64_t first_ns;        ///< time of the first frame in the log
     uint64_t skipped;        ///< CAN FD frames and error frames, which cannot be sent
     uint64_t backwards;      ///< frames before the one before them: their time is its
+    bool gap;                ///< more than an hour without a frame: said once
     double most_bits_second; ///< within any second, stuff bits at their worst
 } sim_recording;
 

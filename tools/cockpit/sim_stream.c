@@ -8,6 +8,8 @@
 #define CODE_BYTE 3
 /// A code alone tells how many frames are missing up to here.
 #define SURE_PERIODS 128
+/// How late a UTC may be.
+#define LATE_NS (50 * MS)
 
 void sim_stream_begin(void *stream, int64_t now_ns) {
     sim_stream *const s = stream;
@@ -41,6 +43,7 @@ static void start(sim_stream *s, sim_beat *beat, int64_t now_ns) {
     beat->started = known && status == SKV_CAN_OK;
     if (beat->heard_ns == 0) // as if it had been heard one period ago
         beat->heard_ns = now_ns - beat->slot.period_ns;
+    sim_bus_say_why(s->bus, status);
     if (status == SKV_CAN_UNAVAILABLE)
         s->failed = status;
     if (status != SKV_CAN_OK)
@@ -59,6 +62,18 @@ static void refill(sim_stream *s, sim_beat *beat) {
     s->left_out++;
     (void)skv_can_cyclic_stop(s->bus->bus, skv_cas_table[beat->slot.index].id, 0);
     beat->started = false;
+}
+
+/// UTC has whole seconds: sent late it is wrong by as much, and the kernel's clockwork begins when it is told to and
+/// falls behind by its delays. Then it is begun anew when its second changes. @return whether it was
+static bool on_the_second(sim_stream *s, sim_beat *beat, int64_t mono_ns) {
+    const int64_t late_ns = (mono_ns - s->start_ns - beat->slot.phase_ns) % beat->slot.period_ns;
+    if (beat->slot.index != SKV_CAS_UTC || late_ns < LATE_NS)
+        return false;
+    (void)skv_can_cyclic_stop(s->bus->bus, skv_cas_table[beat->slot.index].id, 0);
+    beat->started = false;
+    beat->expect_ns = mono_ns + beat->slot.period_ns - late_ns;
+    return true;
 }
 
 /// A frame that did not come within half a period: nothing is heard while the bus does not work.
@@ -137,7 +152,7 @@ void sim_stream_heard(void *stream, const skv_can_received *received, int64_t mo
     sim_beat *const beat = find(s, frame);
     if (!beat)
         return;
-    if (frame->data[0] != s->sender.node || !beat->started) {
+    if (frame->data[0] != s->sender.node || beat->heard_ns == 0) {
         s->others += frame->data[0] != s->sender.node;
         return;
     }
@@ -146,7 +161,11 @@ void sim_stream_heard(void *stream, const skv_can_received *received, int64_t mo
     s->sent++;
     beat->heard_ns = mono_ns;
     beat->code = (uint8_t)(frame->data[CODE_BYTE] + 1);
+    if (!beat->started) // stopped while this one was on its way: its code has been used all the same
+        return;
     beat->expect_ns = mono_ns + beat->slot.period_ns;
+    if (on_the_second(s, beat, mono_ns))
+        return;
     if (beat->expect_ns > now_ns) // else this one is old, and the next is about to be read
         refill(s, beat);
 }

@@ -68,7 +68,7 @@ typedef struct skv_vertices_moment {
     int64_t input_ns;        ///< 32: CLOCK_MONOTONIC, when the newest CAN frame in it was received; 0: none
     double latitude_deg;     ///< 40: NaN-free: 0 where the sun came by the bus and no position is known
     double longitude_deg;    ///< 48
-    float height_m;          ///< 56: as the bus says it, above the sea where it has that
+    float height_m;          ///< 56: above the sea; by pressure where the bus says nothing better
     float horizon_rad;       ///< 60: elevation of the geometric horizon, <= 0
     float sun_enu[3];        ///< 64: unit, east-north-up
     float sun_azimuth_deg;   ///< 76
