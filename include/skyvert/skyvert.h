@@ -10,9 +10,9 @@
 #define SKYVERT_SKYVERT_H
 
 #define SKV_VERSION_MAJOR 0
-#define SKV_VERSION_MINOR 3
+#define SKV_VERSION_MINOR 4
 #define SKV_VERSION_PATCH 0
-#define SKV_VERSION       "0.3.0"
+#define SKV_VERSION       "0.4.0"
 
 #include "skyvert/config.h"
 #include "skyvert/status.h"

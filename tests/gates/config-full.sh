@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# The selections of config.sh on x86-64.
-CONFIG=x86 exec bash "$(dirname "$0")/config.sh"
+# All selections of config.sh, for Cortex-M4F and for x86-64.
+CONFIG=m4f bash "$(dirname "$0")/config.sh" && CONFIG=x86 exec bash "$(dirname "$0")/config.sh"

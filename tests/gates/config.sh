@@ -4,7 +4,7 @@
 # also compile without a warning with gcc and clang for the host.
 . "$(dirname "$0")/lib.sh"
 . "$(dirname "$0")/counts.sh"
-# CONFIG=x86 does the same for x86-64 with AVX2 (-O2, counted by callgrind): config-full.sh.
+# CONFIG=m4f does it for all selections; CONFIG=x86 for x86-64 with AVX2 (-O2, counted by callgrind): config-full.sh.
 if [ "${CONFIG:-}" = x86 ]; then
     NAME="x86-64 gcc -O2 AVX2" COMPILE="gcc -O2 -mavx2" COUNT=count_x86 DIR=$G/config-x86 SIZE=size
     LINK="gcc -O2 -Iinclude tests/gates/count.c" LINK_END=""
@@ -19,55 +19,69 @@ fi
 for tool in $TOOLS; do
     have "$tool" || { echo "config: no $tool (packages gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang valgrind)"; exit 77; }
 done
-# name, macros. The names of single macros are those of count.c's cases.
+# name, macros. The names of single macros are those of count.c's cases. Those with a + are built by config-full.sh only.
 selections() {
-    cat <<'LIST'
+    sed "${CONFIG:+s/^+//;}/^+/d" <<'LIST'
 all
 SKV_BANDS=3 -DSKV_BANDS=3
-SKV_BANDS=4 -DSKV_BANDS=4
-SKV_RULE_UNIFORM=0 -DSKV_RULE_UNIFORM=0
-SKV_RULE_KELLER=0 -DSKV_RULE_KELLER=0
++SKV_BANDS=4 -DSKV_BANDS=4
++SKV_RULE_UNIFORM=0 -DSKV_RULE_UNIFORM=0
++SKV_RULE_KELLER=0 -DSKV_RULE_KELLER=0
 SKV_RULE_GAUSS_EXP=0 -DSKV_RULE_GAUSS_EXP=0
 SKV_DEPTH_CHAPMAN=0 -DSKV_DEPTH_CHAPMAN=0
 SKV_DEPTH_INNER=0 -DSKV_DEPTH_INNER=0
-SKV_TERM_RAYLEIGH=0 -DSKV_TERM_RAYLEIGH=0
++SKV_TERM_RAYLEIGH=0 -DSKV_TERM_RAYLEIGH=0
 SKV_TERM_AEROSOL=0 -DSKV_TERM_AEROSOL=0
-SKV_TERM_DUST=0 -DSKV_TERM_DUST=0
++SKV_TERM_DUST=0 -DSKV_TERM_DUST=0
 SKV_TERM_OZONE=0 -DSKV_TERM_OZONE=0
-SKV_TERM_GROUND=0 -DSKV_TERM_GROUND=0
++SKV_TERM_GROUND=0 -DSKV_TERM_GROUND=0
 SKV_TERM_DIFFUSE=0 -DSKV_TERM_DIFFUSE=0
-SKV_OUT_TRANSMITTANCE=0 -DSKV_OUT_TRANSMITTANCE=0
-SKV_PHASE_HENYEY_GREENSTEIN=0 -DSKV_PHASE_HENYEY_GREENSTEIN=0
-SKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PHASE_CORNETTE_SHANKS=0
++SKV_OUT_TRANSMITTANCE=0 -DSKV_OUT_TRANSMITTANCE=0
++SKV_PHASE_HENYEY_GREENSTEIN=0 -DSKV_PHASE_HENYEY_GREENSTEIN=0
++SKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PHASE_CORNETTE_SHANKS=0
 SKV_PROFILE_TABULATED=0 -DSKV_PROFILE_TABULATED=0
 smallest-gauss-exp -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_TERM_DUST=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_TERM_DIFFUSE=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
 smallest-keller -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_GAUSS_EXP=0 -DSKV_DEPTH_CHAPMAN=0 -DSKV_TERM_DUST=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_TERM_DIFFUSE=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PHASE_CORNETTE_SHANKS=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
-rayleigh-only -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_TERM_AEROSOL=0 -DSKV_TERM_DUST=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_TERM_DIFFUSE=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
++rayleigh-only -DSKV_BANDS=3 -DSKV_RULE_UNIFORM=0 -DSKV_RULE_KELLER=0 -DSKV_DEPTH_INNER=0 -DSKV_TERM_AEROSOL=0 -DSKV_TERM_DUST=0 -DSKV_TERM_OZONE=0 -DSKV_TERM_GROUND=0 -DSKV_TERM_DIFFUSE=0 -DSKV_OUT_TRANSMITTANCE=0 -DSKV_PROFILE_TABULATED=0 -DSKV_LIGHTS_MAX=1
 LIST
 }
 WARN="-Wall -Wextra -Wpedantic -Werror -Wconversion -Wdouble-promotion -Wfloat-conversion -Wshadow -Wstrict-prototypes -Wundef"
-# build NAME FLAG...: core objects, counting program and their text bytes in $DIR/NAME; nothing where they are new.
+# object FILE FLAG...: path of its object, without a warning of clang, the host's gcc and the target's compiler. Many selections leave a
+# file as it is: the preprocessor's output tells, and one object serves them all.
+# shellcheck disable=SC2086
+object() {
+    local f=$1 key
+    shift
+    key=$DIR/cache/$(basename "$f" .c)-$($COMPILE -std=c99 -E -P "$@" -Iinclude -Isrc "$f" | md5sum | cut -c 1-16)
+    if [ ! -f "$key.o" ]; then
+        clang -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
+        gcc -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
+        $COMPILE -std=c99 $FP $WARN -Wno-type-limits "$@" -Iinclude -Isrc -c "$f" -o "$key.$BASHPID" || return 1
+        mv "$key.$BASHPID" "$key.o"
+    fi
+    echo "$key.o"
+}
+# build NAME FLAG...: the counting program and its objects' text bytes in $DIR/NAME; nothing where they are new.
 # shellcheck disable=SC2086
 build() {
-    local dir=$DIR/$1 f objects=()
+    local dir=$DIR/$1 f one objects=()
     shift
     if [ -f "$dir/bytes" ] && [ -z "$(find src/core include port/cortexm tests/gates -newer "$dir/bytes" -name '*.[ch]' -print -quit)" ]; then return 0; fi
     rm -rf "$dir"
     mkdir -p "$dir"
     for f in src/core/*.c; do
-        clang -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
-        gcc -std=c99 -fsyntax-only $FP $WARN "$@" -Iinclude -Isrc "$f" || return 1
-        $COMPILE -std=c99 $FP $WARN -Wno-type-limits "$@" -Iinclude -Isrc -c "$f" -o "$dir/$(basename "$f" .c).o" || return 1
-        objects+=("$dir/$(basename "$f" .c).o")
+        one=$(object "$f" "$@") || return 1
+        objects+=("$one")
     done
     $LINK -std=c99 $FP "$@" "${objects[@]}" $LINK_END -o "$dir/count" || return 1
     $SIZE "${objects[@]}" | awk 'NR > 1 { sum += $1 } END { print sum }' >"$dir/bytes"
 }
+export -f object
 export -f build
 export DIR FP WARN COMPILE LINK LINK_END SIZE
 [ "$COUNT" = count_x86 ] || quiet_make "$B/cortexm/libcount.so"
 # The compilers' words of each selection by itself, two at a time.
-mkdir -p "$DIR"
+mkdir -p "$DIR/cache"
 selections | xargs -P "$(nproc)" -I{} bash -c 'set -- {}; build "$@" >"$DIR/$1.log" 2>&1 || rm -f "$DIR/$1/bytes"'
 while read -r name _; do
     [ -f "$DIR/$name/bytes" ] && continue

@@ -7,7 +7,7 @@ command -v "$CC" >/dev/null || { echo "the sanitizer build needs $CC"; exit 77; 
 san="-fsanitize=address,undefined,float-divide-by-zero,float-cast-overflow -fno-sanitize-recover=address,undefined"
 s="$B/sanitized"
 # -O0: optimising instrumented code takes minutes.
-${MAKE:-make} --no-print-directory -s DEPS=no B="$s" CC="$CC" OPT=-O0 WARN=-w SAN="$san" "$s/tests/property/test_random" \
+${MAKE:-make} --no-print-directory -s -j"$(nproc)" DEPS=no B="$s" CC="$CC" OPT=-O0 WARN=-w SAN="$san" "$s/tests/property/test_random" \
     "$s/tests/property/test_batch"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
