@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh TEST...: runs each test program or script, shows the output of those that fail or skip, and sums up. As many go side by
-# side as there are processors (JOBS), the scripts first: they take longer. The board's tests come last, when nothing else runs:
+# side as there are processors, four at most (JOBS), the scripts first: they take longer. The board's tests come last, when nothing else runs:
 # they have deadlines.
 # Exit status of a test: 0 = passed, 77 = skipped (its last line says what and why), anything else = failed.
 set -u
@@ -46,7 +46,8 @@ side_by_side() {
     shift
     [ $# -eq 0 ] || printf '%s\0' "$@" | xargs -0 -n 1 -P "$jobs" bash "$0" --one "$work"
 }
-side_by_side "${JOBS:-$(nproc)}" "${scripts[@]}" "${programs[@]}"
+cores=$(nproc)
+side_by_side "${JOBS:-$((cores < 4 ? cores : 4))}" "${scripts[@]}" "${programs[@]}"
 side_by_side 1 "${last[@]}"
 
 count() { grep -c "^$1 " "$work/verdicts"; }
