@@ -428,6 +428,14 @@ static int skv_table_permille(const skv_table_builder *b) {
     return (int)((float)(before * cells + rays * cell) / (float)(all * cells) * 998.0f);
 }
 
+/// Whether a layer puts corners into the light of a column: then it is no smooth curve.
+static int skv_table_layered(const skv_model *m) {
+    int layered = 0;
+    for (int s = 0; s < SKV_SCATTERERS; s++)
+        layered |= m->species[s].kind >= SKV_PROFILE_TENT;
+    return layered;
+}
+
 /// After the passes: on to the next of n rows or columns, and to the next thing to do behind the last one.
 static void skv_table_line_end(skv_table_builder *b, int n) {
     if (++b->row < n)
@@ -451,7 +459,8 @@ skv_status skv_table_step(skv_table_builder *builder, int *permille) {
         skv_table_fit_row(builder->work, builder->row);
         skv_table_line_end(builder, builder->work->altitudes);
     } else if (builder->pass == fit + 1) {
-        skv_table_fit_column(builder->work, builder->row);
+        if (!skv_table_layered(builder->model))
+            skv_table_fit_column(builder->work, builder->row);
         skv_table_line_end(builder, builder->work->suns);
     } else if (builder->pass == pack) {
         skv_table_pack_row(builder->work, builder->table, builder->row, builder->largest, builder->spec.format);

@@ -4,7 +4,8 @@
 
 #include "skyvert/table.h"
 
-/// Along a row, and the ground's irradiance with row 0; along a column, once all rows are done.
+/// Along a row, and the ground's irradiance with row 0; along a column, once all rows are done, where the air has no
+/// layers.
 void skv_table_fit_row(skv_table *work, int row);
 void skv_table_fit_column(skv_table *work, int column);
 
