@@ -40,7 +40,7 @@ refused "there are only options" 2 --fake more
 ini "[can]" "interfaces = can0"
 refused "bad.ini:2: [can] has no interfaces: allowed is interface, node, transmit" 2 --config "$work/bad.ini"
 ini "[sky]" "air = mars"
-refused "bad.ini:2: air = mars: allowed is earth-clear, earth-hazy" 2 --config "$work/bad.ini"
+refused "bad.ini:2: air = mars: allowed is earth-clear or earth-hazy" 2 --config "$work/bad.ini"
 ini "[sky]" "geoid_m = 101"
 refused "bad.ini:2: geoid_m = 101: allowed is a number from -120 to 100" 2 --config "$work/bad.ini"
 ini "[knobs]" "" "visibility_per_click = 1"

@@ -26,17 +26,13 @@ static int number(const reading *r, double low, double high, double *value) {
 }
 
 static int choice(const reading *r, const char *const names[], int *index) {
-    char allowed[128] = "";
-    for (int i = 0; names[i]; i++) {
-        if (strcmp(names[i], r->entry->value) == 0) {
-            *index = i;
-            return 0;
-        }
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", i ? ", " : "", names[i]);
-    }
-    return fail_usage("%s:%d: %s = %.60s: allowed is %s", r->path, r->entry->line, r->entry->name, r->entry->value,
-                      allowed);
+    char allowed[CHOICE_TEXT];
+    const int at = parse_choice(r->entry->value, names, allowed);
+    if (at < 0)
+        return fail_usage("%s:%d: %s = %.60s: allowed is %s", r->path, r->entry->line, r->entry->name, r->entry->value,
+                          allowed);
+    *index = at;
+    return 0;
 }
 
 static bool is(const reading *r, const char *name) {

@@ -1,7 +1,6 @@
 /// Error lines of options.
 #include <getopt.h>
 #include <math.h>
-#include <string.h>
 
 #include "common.h"
 
@@ -22,16 +21,12 @@ int common_integer(const char *program, const char *option, const char *text, in
 }
 
 int common_choice(const char *program, const char *option, const char *text, const char *const names[], int *index) {
-    char allowed[256] = "";
-    for (int i = 0; names[i]; i++) {
-        if (strcmp(text, names[i]) == 0) {
-            *index = i;
-            return 0;
-        }
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
-    }
-    return fail_usage("%s: %s %.60s: allowed is %s", program, option, text, allowed);
+    char allowed[CHOICE_TEXT];
+    const int at = parse_choice(text, names, allowed);
+    if (at < 0)
+        return fail_usage("%s: %s %.60s: allowed is %s", program, option, text, allowed);
+    *index = at;
+    return 0;
 }
 
 int common_unknown(const char *program, int got, char **argv) {

@@ -45,6 +45,10 @@ int fail_job(const char *format, ...) SKV_PRINTF(1, 2);
 /// @return false iff text is no such number or is too large for a double (value is not written then).
 bool parse_number(const char *text, double *value);
 
+/// The place of text among `names` (NULL at the end). @param[out] allowed  "a, b or c". @return -1: it is none of them.
+#define CHOICE_TEXT 256
+int parse_choice(const char *text, const char *const names[], char allowed[CHOICE_TEXT]);
+
 /// The value of `--option` in [low, high]. @return 0; 2 after an error line that names command, option and range.
 int option_number(const char *command, const char *option, const char *text, double low, double high, double *value);
 int option_integer(const char *command, const char *option, const char *text, int low, int high, int *value);

@@ -73,17 +73,25 @@ int option_integer(const char *command, const char *option, const char *text, in
     return 0;
 }
 
-int option_choice(const char *command, const char *option, const char *text, const char *const names[], int *index) {
-    char allowed[256] = "";
+int parse_choice(const char *text, const char *const names[], char allowed[CHOICE_TEXT]) {
+    size_t used = 0;
+    allowed[0] = '\0';
     for (int i = 0; names[i]; i++) {
-        if (strcmp(text, names[i]) == 0) {
-            *index = i;
-            return 0;
-        }
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
+        if (strcmp(text, names[i]) == 0)
+            return i;
+        snprintf(allowed + used, CHOICE_TEXT - used, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
+        used = strlen(allowed);
     }
-    return fail_usage("skyvert %s: --%s %.60s: allowed is %s", command, bare(option), text, allowed);
+    return -1;
+}
+
+int option_choice(const char *command, const char *option, const char *text, const char *const names[], int *index) {
+    char allowed[CHOICE_TEXT];
+    const int at = parse_choice(text, names, allowed);
+    if (at < 0)
+        return fail_usage("skyvert %s: --%s %.60s: allowed is %s", command, bare(option), text, allowed);
+    *index = at;
+    return 0;
 }
 
 int option_unknown(const char *command, int got, char **argv) {
